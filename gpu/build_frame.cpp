@@ -42,6 +42,13 @@ bool soft_sun(const Frame& frame, const Sun& sun)
     return s.soft_shadows && s.shadows && s.samples > 1 && sun.illuminance != glm::vec3(0.0f);
 }
 
+// Other points of a lens see past the view.
+void ask_everywhere(std::array<DepthView, SHADOW_CASCADES>& views, const Frame& frame)
+{
+    if (frame.lens.radius_m <= 0.0f) return;
+    for (DepthView& view : views) view.asked = {};
+}
+
 // Depth maps are drawn only when their views have changed.
 void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r,
                     bool weather, const FallingPlan& plan)
@@ -51,9 +58,10 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
         static_cast<float>(frame.settings.width) / static_cast<float>(frame.settings.height);
     if (frame.settings.shadows && !soft_sun(frame, sun)) {
         const bool coarse = frame.settings.coarse_shadows;
-        const auto views = coarse
+        auto views = coarse
                                ? coarse_views(frame.camera, aspect, sun.direction, r.scene->bounds())
                                : cascade_views(frame.camera, aspect, sun.direction, r.scene->bounds());
+        ask_everywhere(views, frame);
         add_shadow(graph, maps, *r.scene, *r.triangles, views, coarse ? kCoarseCascade : 0);
     }
     // They shadow skylight, and keep rain and snow off.
@@ -222,7 +230,7 @@ std::shared_ptr<const SeenDraws> seen_triangles(const Frame& frame, const Sun& s
 {
     const FrameSettings& s = frame.settings;
     const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
-    SampledView view{c.world_to_clip, s.width, s.height, {}};
+    SampledView view{c.world_to_clip, s.width, s.height, {}, false, {}};
     for (std::uint32_t i = range.first; i < range.end; ++i)
         view.offsets.push_back(sample_offset(i, s.seed));
     std::vector<bool> alone(r.scene->draws().size());
@@ -257,8 +265,9 @@ void look_from_sun(FrameGraph& graph, const Frame& frame, const Sun& sun, std::u
     const FrameSettings& s = frame.settings;
     const float aspect = static_cast<float>(s.width) / static_cast<float>(s.height);
     DepthMaps& maps = *r.depth_maps;
-    const auto views = cascade_views(frame.camera, aspect, toward_sun_disc(sun.direction, sample, s.samples, s.seed),
+    auto views = cascade_views(frame.camera, aspect, toward_sun_disc(sun.direction, sample, s.samples, s.seed),
                                      r.scene->bounds());
+    ask_everywhere(views, frame);
     add_shadow(graph, maps, *r.scene, *r.triangles, views);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace petrichor::gpu {
 
@@ -50,6 +51,73 @@ DepthView orthographic_view(const glm::vec3& direction, const glm::vec3& centre_
     to_map[3] = glm::vec4(0.5f, 0.5f, 0.0f, 1.0f);
     view.map_from_world = to_map * m;
     return view;
+}
+
+std::optional<AskedPart> asked_of(const AskedPart& asked, const glm::mat4& clip_from_world, const glm::vec3& centre_m,
+                                  float radius_m)
+{
+    AskedPart part;
+    if (asked.count == 0) return part;
+    const glm::vec4 centre = clip_from_world * glm::vec4(centre_m, 1.0f);
+    const auto radius = [&](int row) {
+        return radius_m * glm::length(glm::vec3(clip_from_world[0][row], clip_from_world[1][row],
+                                                clip_from_world[2][row]));
+    };
+    if (centre.z + radius(2) < asked.least_z) return {};
+    if (centre.z - radius(2) < asked.least_z) part.least_z = asked.least_z;
+    const float wide = std::max(radius(0), radius(1));
+    for (int i = 0; i < asked.count; ++i) {
+        const glm::vec3& line = asked.lines[static_cast<std::size_t>(i)];
+        const float inside = line.x * centre.x + line.y * centre.y + line.z;
+        if (inside < -wide) return {};
+        if (!(inside > wide)) part.lines[static_cast<std::size_t>(part.count++)] = line;
+    }
+    return part;
+}
+
+AskedPart asked_part(const DepthView& view, std::span<const glm::vec3> corners, float margin_m)
+{
+    // Texels that a look-up reads around its own, and how far depths are led along a plane that is seen edge on.
+    constexpr float kAround = 8.0f, kAlong = 64.0f;
+    const auto per_m = [&](int row) {
+        return glm::length(glm::vec3(view.clip_from_world[0][row], view.clip_from_world[1][row],
+                                     view.clip_from_world[2][row]));
+    };
+    const float margin = per_m(0) * (margin_m + kAround * view.texel_m);
+    AskedPart part;
+    part.least_z = 1.0e30f;
+    std::vector<glm::dvec2> points;
+    for (const glm::vec3& corner : corners) {
+        const glm::vec4 clip = view.clip_from_world * glm::vec4(corner, 1.0f);
+        points.emplace_back(clip.x, clip.y);
+        part.least_z = std::min(part.least_z, clip.z);
+    }
+    part.least_z -= per_m(2) * (margin_m + kAlong * view.texel_m);
+    // Their hull, counter-clockwise (Andrew 1979).
+    const auto before = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+    std::sort(points.begin(), points.end(), before);
+    const auto turn = [](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+        return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    };
+    std::vector<glm::dvec2> hull;
+    for (int half = 0; half < 2; ++half) {
+        const std::size_t first = hull.size();
+        for (const glm::dvec2& point : points) {
+            while (hull.size() >= first + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
+            hull.push_back(point);
+        }
+        hull.pop_back();
+        std::reverse(points.begin(), points.end());
+    }
+    for (std::size_t i = 0; i < hull.size() && part.count < static_cast<int>(part.lines.size()); ++i) {
+        const glm::dvec2 from = hull[i], along = hull[(i + 1) % hull.size()] - from;
+        const double length = glm::length(along);
+        if (!(length > 0.0)) continue;
+        const glm::dvec2 in(-along.y / length, along.x / length);
+        part.lines[static_cast<std::size_t>(part.count++)] =
+            glm::vec3(glm::dvec3(in, static_cast<double>(margin) - glm::dot(in, from)));
+    }
+    return part;
 }
 
 }  // namespace petrichor::gpu

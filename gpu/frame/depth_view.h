@@ -1,6 +1,10 @@
 #ifndef PETRICHOR_GPU_FRAME_DEPTH_VIEW_H
 #define PETRICHOR_GPU_FRAME_DEPTH_VIEW_H
 
+#include <array>
+#include <optional>
+#include <span>
+
 #include "gpu/frame/frame_io.h"
 #include "gpu/upload/scene_names.h"
 
@@ -10,11 +14,25 @@ inline constexpr int kShadowMapSize = 2048;   ///< texels a side of a cascade
 inline constexpr int kShelterMapSize = 2048;  ///< of the map along the falling rain
 inline constexpr int kSkyMapSize = 512;       ///< of each direction of the sky
 
+/// Where a map is asked: what lies outside of it throws its shadow on nothing that is seen.
+struct AskedPart {
+    std::array<glm::vec3, 8> lines{};  ///< inside of each a x + b y + c >= 0, x and y of clip space
+    int count = 0;                     ///< 0: everywhere
+    float least_z = -1.0e30f;          ///< of clip space: the farthest that asks
+
+    bool operator==(const AskedPart&) const = default;
+};
+
+/// The part without what all of a sphere is inside of; nothing when the sphere is outside.
+std::optional<AskedPart> asked_of(const AskedPart& asked, const glm::mat4& clip_from_world, const glm::vec3& centre_m,
+                                  float radius_m);
+
 /// One view of the scene from far away: along the sun (a shadow cascade) or along the falling rain.
 struct DepthView {
     glm::mat4 clip_from_world{1.0f};
     glm::mat4 map_from_world{1.0f};  ///< to (u, v, depth), each 0..1
     float texel_m = 0.0f;
+    AskedPart asked;  ///< no part of what view it is
 
     bool operator==(const DepthView& other) const
     {
@@ -26,6 +44,10 @@ struct DepthView {
 /// texels; in depth it spans the whole scene.
 DepthView orthographic_view(const glm::vec3& direction, const glm::vec3& centre_m, float radius_m,
                             const Bounds& scene, int size);
+
+/// The part of an orthographic view in which points of the convex hull of `corners` ask it, and what is up to
+/// `margin_m` beside them.
+AskedPart asked_part(const DepthView& view, std::span<const glm::vec3> corners, float margin_m);
 
 }  // namespace petrichor::gpu
 

@@ -183,9 +183,13 @@ glm::vec3 cascade_ends_m(const Camera& camera, const Bounds& scene)
 
 namespace {
 
+// Drops and flakes whose middle lies beside the view, metres.
+constexpr float kBeside_m = 0.3f;
+
 // Of the slice of the view from `begin` to `end` metres: the sphere around it, whose size does not change as the camera turns.
+// It is asked up to `until`.
 DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun, const Bounds& scene,
-                     float begin, float end)
+                     float begin, float end, float until)
 {
     const Axes axes = axes_of(camera);
     const float half_y = scene::half_extent_m(camera, 1, 1).y;
@@ -205,7 +209,16 @@ DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun
         centre = 0.5f * (scene.low + scene.high);
         radius = scene_radius;
     }
-    return orthographic_view(-to_sun, centre, std::max(radius, 1e-3f), scene, kShadowMapSize);
+    DepthView view = orthographic_view(-to_sun, centre, std::max(radius, 1e-3f), scene, kShadowMapSize);
+    std::array<glm::vec3, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const float away = (i & 1) ? until : begin;
+        const float wide = camera.orthographic_height_m > 0.0f ? half_y : half_y * away;
+        corners[i] = axes.position + axes.forward * away + axes.right * ((i & 2) ? aspect * wide : -aspect * wide) +
+                     axes.up * ((i & 4) ? wide : -wide);
+    }
+    view.asked = asked_part(view, corners, kBeside_m);
+    return view;
 }
 
 }  // namespace
@@ -214,11 +227,12 @@ std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float
                                                      const glm::vec3& to_sun, const Bounds& scene)
 {
     const glm::vec3 ends = cascade_ends_m(camera, scene);
+    const float farthest = std::max(far_m(axes_of(camera), camera, scene), ends[SHADOW_CASCADES - 1]);
     std::array<DepthView, SHADOW_CASCADES> views;
     for (int i = 0; i < SHADOW_CASCADES; ++i) {
         const float begin = i == 0 ? camera.near_m : ends[i - 1] * 0.97f;
         views[static_cast<std::size_t>(i)] =
-            slice_view(camera, aspect, to_sun, scene, begin, ends[i]);
+            slice_view(camera, aspect, to_sun, scene, begin, ends[i], i + 1 < SHADOW_CASCADES ? ends[i] : farthest);
     }
     return views;
 }
@@ -227,8 +241,9 @@ std::array<DepthView, SHADOW_CASCADES> coarse_views(const Camera& camera, float 
                                                     const glm::vec3& to_sun, const Bounds& scene)
 {
     std::array<DepthView, SHADOW_CASCADES> views;
-    views[kCoarseCascade] = slice_view(camera, aspect, to_sun, scene, camera.near_m,
-                                       cascade_ends_m(camera, scene)[SHADOW_CASCADES - 1]);
+    const float end = cascade_ends_m(camera, scene)[SHADOW_CASCADES - 1];
+    views[kCoarseCascade] = slice_view(camera, aspect, to_sun, scene, camera.near_m, end,
+                                       std::max(far_m(axes_of(camera), camera, scene), end));
     return views;
 }
 

@@ -20,6 +20,8 @@ constexpr int kSide = SnowBody::kAround;
 constexpr std::array<float, kSide> kShare{1.0f / 16, 4.0f / 16, 6.0f / 16, 4.0f / 16, 1.0f / 16};
 constexpr float kTallest_m = scene::kDeepestSnow_m * 1.4f;
 
+constexpr float kCovers_m = 0.01f;  // caps so high over a triangle of the scene stand for it
+
 constexpr int kMiddle = kSide * kSide / 2;
 
 // The leaf that lies at a point and faces up; as place_leaf() of gpu/frame/place.glsl. Its number and
@@ -74,6 +76,10 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
             part.box.high = glm::max(part.box.high, from.source.positions[v] + kTallest_m);
         }
         overlay_.parts.push_back(part);
+        std::uint32_t last = 0;
+        for (const std::uint32_t below : from.below)
+            if (below != scene::SnowCaps::kUncovered) last = std::max(last, below + 1);
+        covered_.push_back({from.instance, from.primitive, std::vector<std::uint8_t>(last)});
     }
 }
 
@@ -158,7 +164,33 @@ bool SnowBody::lay(const Frame& frame)
         v.tangent = glm::vec4(unit * (1.0f + lift), v.tangent.w);
         v.weather[3] = std::min<std::uint8_t>(code(shared::snow_body_code(shape.deep_m[point])), 254);
     }
+    find_covered(shape);
     return true;
+}
+
+void SnowBody::find_covered(const scene::SnowShape& shape)
+{
+    for (std::size_t i = 0; i < caps_->parts.size(); ++i) {
+        const scene::SnowCaps::Part& part = caps_->parts[i];
+        std::vector<std::uint8_t>& triangles = covered_[i].triangles;
+        std::fill(triangles.begin(), triangles.end(), std::uint8_t{0});
+        for (const std::uint32_t below : part.below)
+            if (below != scene::SnowCaps::kUncovered) triangles[below] = 1;
+        for (std::size_t t = 0; t < part.below.size(); ++t) {
+            const std::uint32_t below = part.below[t];
+            if (below == scene::SnowCaps::kUncovered) continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t point = caps_->corner_points[caps_->indices[part.first_index + 3 * t + c]];
+                if (!(shape.positions[point].y - caps_->points[point].base_m.y > kCovers_m)) triangles[below] = 0;
+            }
+        }
+    }
+}
+
+std::span<const Covered> SnowBody::covered() const
+{
+    if (!lies_) return {};
+    return covered_;
 }
 
 std::span<const Vertex> SnowBody::vertices() const

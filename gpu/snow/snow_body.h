@@ -32,6 +32,8 @@ public:
     bool lay(const Frame& frame);
     /// Empty: too thin to have a body.
     std::span<const Vertex> vertices() const;
+    /// What of the scene lies below it: the same triangles of the caps are seen from above, and throw its shadows.
+    std::span<const Covered> covered() const;
     /// The farthest that a vertex stands over its ground; 0 without any.
     float lift_m() const { return lies_ ? lift_m_ : 0.0f; }
 
@@ -51,6 +53,8 @@ private:
     std::optional<Key> laid_;
     bool lies_ = false;
     float lift_m_ = 0.0f;
+    std::vector<Covered> covered_;  // of each part of the caps
+    void find_covered(const scene::SnowShape& shape);
     std::shared_ptr<const PlaceShape> shape_;          // that patches_ belong to
     std::vector<Around> patches_;
 };

@@ -206,6 +206,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
             draw.vertex_count = range.vertex_count;
             draw.material = primitives[p].material;
             draw.instance_id = static_cast<std::uint32_t>(i);
+            draw.primitive = static_cast<std::uint32_t>(p);
             draw.to_world = instance.to_world;
             draw.detail = instance.detail;
             levels_ = levels_ || draw.detail.radius_m > 0.0f;
@@ -280,6 +281,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
     vertices.insert(vertices.end(), overlay.vertices.begin(), overlay.vertices.end());
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
     sort_draws(draws_, materials_);
+    covered_.resize(draws_.size());
     for (Draw& draw : draws_) {
         draw.most_indices = draw.index_count;
         if (draw.overlay) overlay_counts_.push_back(std::exchange(draw.index_count, 0));
@@ -344,8 +346,16 @@ void GpuScene::upload_looks(const Device& device, const Scene& scene)
     upload_buffer(device, *instance_looks_, std::as_bytes(std::span(texels)));
 }
 
-void GpuScene::lay(const Device& device, std::span<const Vertex> overlay)
+void GpuScene::lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered)
 {
+    for (auto& triangles : covered_) triangles.clear();
+    std::map<std::pair<std::uint32_t, std::uint32_t>, const Covered*> below;
+    for (const Covered& one : covered) below[{one.instance_id, one.primitive}] = &one;
+    for (std::size_t i = 0; i < draws_.size() && !below.empty(); ++i) {
+        const Draw& draw = draws_[i];
+        const auto found = draw.overlay ? below.end() : below.find({draw.instance_id, draw.primitive});
+        if (found != below.end()) covered_[i] = found->second->triangles;
+    }
     overlaid_ = !overlay.empty();
     std::size_t next = 0;
     for (Draw& draw : draws_) {

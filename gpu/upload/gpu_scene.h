@@ -31,6 +31,7 @@ struct Draw {
     std::uint32_t most_indices = 0;  ///< index_count where it is shown
     std::uint32_t material = 0;
     std::uint32_t instance_id = 0;
+    std::uint32_t primitive = 0;  ///< number in the instance's mesh
     std::uint32_t look = 0;  ///< number of its instance's look, from 1; 0: none
     DetailLevel detail;
     std::uint32_t fade = 0;  ///< DrawConstants::fade, of this frame
@@ -66,6 +67,13 @@ struct Overlay {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Part> parts;
+};
+
+/// Triangles of a primitive that the overlay hides from above: 1 for each that it does.
+struct Covered {
+    std::uint32_t instance_id = 0;
+    std::uint32_t primitive = 0;
+    std::vector<std::uint8_t> triangles;
 };
 
 /// The bounding sphere of a draw, from the box of its vertices.
@@ -111,8 +119,13 @@ public:
     bool pose(const Device& device, double time_s, const scene::Wind& wind = {});
     /// Shapes the overlay of the frames that follow; empty: there is none in them. The device must not
     /// be drawing.
-    void lay(const Device& device, std::span<const Vertex> overlay);
+    void lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered = {});
     bool overlaid() const { return overlaid_; }
+    /// By the triangles of a draw, 1 for those below the overlay; empty: none are.
+    std::span<const std::uint8_t> covered(const Draw& draw) const
+    {
+        return covered_[static_cast<std::size_t>(&draw - draws_.data())];
+    }
     /// Shows of every thing the level of detail that this camera wants. `scale` makes things count as
     /// larger. True when what casts shadows has changed.
     bool choose_levels(const Camera& camera, float scale);
@@ -186,6 +199,7 @@ private:
     std::size_t first_overlay_ = 0;
     std::vector<std::uint32_t> overlay_counts_;  // indices of the overlay's draws, in their order
     bool overlaid_ = false;
+    std::vector<std::vector<std::uint8_t>> covered_;  // of each draw
     std::vector<Light> rest_lights_;
     std::vector<GlowSource> rest_glow_sources_;
     Bounds rest_bounds_;

@@ -35,6 +35,17 @@ bool meets(float low, float high, float offset)
     return std::floor(high - 0.5f - offset) >= std::ceil(low - 0.5f - offset);
 }
 
+// What is not a number is inside of all.
+std::uint32_t outside(const AskedPart& asked, const glm::vec4& clip)
+{
+    std::uint32_t bits = clip.z < asked.least_z ? 1u << 31 : 0u;
+    for (int i = 0; i < asked.count; ++i) {
+        const glm::vec3& line = asked.lines[static_cast<std::size_t>(i)];
+        bits |= line.x * clip.x + line.y * clip.y + line.z < 0.0f ? 1u << i : 0u;
+    }
+    return bits;
+}
+
 }  // namespace
 
 void SeenTriangles::reset(const GpuScene& scene)
@@ -94,27 +105,33 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
         const float hidden_sign = (cull == VK_CULL_MODE_BACK_BIT) == draw->mirrored ? -1.0f : 1.0f;
         const bool turned_away = cull != VK_CULL_MODE_NONE;
 
+        const AskedPart asked = asked_of(view.asked, view.clip_from_world, draw->centre_m, draw->radius_m).value_or(view.asked);
         corners_.resize(draw->vertex_count);
         const Vertex* own = vertices + draw->vertex_offset + draw->first_vertex;
         for (std::uint32_t v = 0; v < draw->vertex_count; ++v) {
             const glm::vec4 clip = clip_from_mesh * glm::vec4(own[v].position, 1.0f);
             Corner& corner = corners_[v];
             if (!(clip.w > 1.0e-6f)) {
-                corner = {0.0f, 0.0f, 0.0f};
+                corner = {0.0f, 0.0f, 0.0f, 0u};
                 continue;
             }
             corner.nearer = 1.0f / clip.w;
             corner.x = (clip.x * corner.nearer * 0.5f + 0.5f) * width;
             corner.y = (clip.y * corner.nearer * 0.5f + 0.5f) * height;
+            corner.outside = outside(asked, clip);
         }
         const auto first = static_cast<std::uint32_t>(used_);
         const std::uint32_t triangles = draw->index_count / 3;
+        const std::span<const std::uint8_t> covered =
+            view.from_above ? scene.covered(*draw) : std::span<const std::uint8_t>();
         for (std::uint32_t t = 0; t < triangles; ++t) {
+            if (t < covered.size() && covered[t] != 0) continue;
             const std::uint32_t* index = indices + draw->first_index + 3 * std::size_t{t};
             const Corner& a = corners_[index[0] - draw->first_vertex];
             const Corner& b = corners_[index[1] - draw->first_vertex];
             const Corner& c = corners_[index[2] - draw->first_vertex];
             // Written so that what is not a number stays.
+            if ((a.outside & b.outside & c.outside) != 0u) continue;
             const bool before = a.nearer > 0.0f && b.nearer > 0.0f && c.nearer > 0.0f;
             if (before) {
                 const float slack =

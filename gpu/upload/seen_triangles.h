@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu/frame/depth_view.h"
 #include "gpu/upload/gpu_scene.h"
 #include "gpu/upload/instance_places.h"
 
@@ -17,6 +18,8 @@ struct SampledView {
     int width = 0;
     int height = 0;
     std::vector<glm::vec2> offsets{glm::vec2(0.0f)};  ///< of the samples, pixels from the middle of one
+    bool from_above = false;  ///< what lies below the overlay is hidden by it
+    AskedPart asked;  ///< of a view without perspective: what of it counts
 };
 
 /// Indices of those of a draw's triangles that some sample may meet, in the order of the draw.
@@ -84,6 +87,7 @@ private:
     struct Corner {
         float x, y;     // pixels
         float nearer;   // 1 / w; 0: not before the eye
+        std::uint32_t outside;  // of which lines of what is asked; the highest bit: farther than all that asks
     };
     std::vector<Corner> corners_;
 };

@@ -53,6 +53,35 @@ float triangle_distance_m(const vec3& p, const vec3& a, const vec3& b, const vec
 struct Ground {
     std::vector<Primitive> primitives;
     std::vector<std::uint32_t> instances;
+    std::vector<std::uint32_t> numbers;             // of the primitives in their meshes
+    std::vector<std::vector<std::uint32_t>> below;  // of each primitive, by its triangles: which of the mesh's it was
+};
+
+// Keeps those triangles of a primitive that are wanted, and forgets which the others were a part of.
+class Keeper {
+public:
+    explicit Keeper(Ground& ground) : ground_(&ground) {}
+
+    template <class Wanted>
+    void keep(CutMesh& mesh, std::size_t i, const Wanted& wanted)
+    {
+        Primitive& p = mesh.primitives[i];
+        std::vector<std::uint32_t> kept, origins;
+        for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
+            const std::uint32_t origin = mesh.origins[i][k / 3];
+            if (!wanted(k)) {
+                ground_->below[i][origin] = SnowCaps::kUncovered;
+                continue;
+            }
+            kept.insert(kept.end(), {p.indices[k], p.indices[k + 1], p.indices[k + 2]});
+            origins.push_back(origin);
+        }
+        p.indices = std::move(kept);
+        mesh.origins[i] = std::move(origins);
+    }
+
+private:
+    Ground* ground_;
 };
 
 Ground ground_of(const Scene& scene, const SnowCapOptions& options)
@@ -68,7 +97,7 @@ Ground ground_of(const Scene& scene, const SnowCapOptions& options)
             if (!holds_snow_body(m)) continue;
             Primitive to;
             to.material = from.material;
-            std::vector<std::uint32_t> number(from.positions.size(), 0xffffffffu);
+            std::vector<std::uint32_t> number(from.positions.size(), 0xffffffffu), below;
             const auto place = [&](std::uint32_t v) {
                 return vec3(instance.to_world * glm::vec4(from.positions[v], 1.0f));
             };
@@ -87,6 +116,7 @@ Ground ground_of(const Scene& scene, const SnowCapOptions& options)
                 for (const vec3& eye : options.eyes_m)
                     near = near || triangle_distance_m(eye, a, b, c) < options.reach_m;
                 if (!near) continue;
+                below.push_back(static_cast<std::uint32_t>(k / 3));
                 for (const std::uint32_t v : t) {
                     if (number[v] == 0xffffffffu) {
                         number[v] = static_cast<std::uint32_t>(to.positions.size());
@@ -108,6 +138,8 @@ Ground ground_of(const Scene& scene, const SnowCapOptions& options)
             }
             if (to.indices.empty()) continue;
             ground.primitives.push_back(std::move(to));
+            ground.numbers.push_back(static_cast<std::uint32_t>(&from - scene.meshes[instance.mesh].primitives.data()));
+            ground.below.push_back(std::move(below));
             ground.instances.push_back(static_cast<std::uint32_t>(i));
         }
     }
@@ -129,7 +161,7 @@ std::array<vec3, kRays> sky_rays()
 
 // Share of the sky overhead that points see, into w of _WEATHER. A corner is looked at a bit within its
 // triangle: it may lie in a wall.
-void look_up(CutMesh& mesh, const Tracer& tracer)
+void look_up(CutMesh& mesh, const Tracer& tracer, Keeper keeper)
 {
     const auto rays = sky_rays();
     std::vector<float> sum(mesh.normals.size(), 0.0f), count(mesh.normals.size(), 0.0f);
@@ -161,13 +193,10 @@ void look_up(CutMesh& mesh, const Tracer& tracer)
             p.weather[v].w = sum[point] / std::max(count[point], 1.0f);
         }
         // What sees none of it, within houses and under eaves, has no cap.
-        std::vector<std::uint32_t> kept;
-        for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
+        keeper.keep(mesh, i, [&](std::size_t k) {
             const auto see = [&](std::size_t c) { return p.weather[p.indices[k + c]].w; };
-            if (std::max({see(0), see(1), see(2)}) < kHidden) continue;
-            kept.insert(kept.end(), {p.indices[k], p.indices[k + 1], p.indices[k + 2]});
-        }
-        p.indices = std::move(kept);
+            return !(std::max({see(0), see(1), see(2)}) < kHidden);
+        });
     }
 }
 
@@ -181,7 +210,7 @@ float smooth_noise(const vec3& p, float cell_m, std::uint32_t seed)
 constexpr float kNarrowest_m = 0.04f;
 constexpr double kSmallest_m2 = 0.0025;
 
-void leave_out_ledges(CutMesh& mesh, const Tracer& tracer)
+void leave_out_ledges(CutMesh& mesh, const Tracer& tracer, Keeper keeper)
 {
     std::vector<std::uint32_t> parent(mesh.normals.size());
     for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
@@ -239,13 +268,8 @@ void leave_out_ledges(CutMesh& mesh, const Tracer& tracer)
             ground[r] += static_cast<double>(glm::distance(at, next));
     });
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-        Primitive& p = mesh.primitives[i];
-        std::vector<std::uint32_t> kept;
-        for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
-            if (narrow(root(mesh.points[i][p.indices[k]]))) continue;
-            kept.insert(kept.end(), {p.indices[k], p.indices[k + 1], p.indices[k + 2]});
-        }
-        p.indices = std::move(kept);
+        const Primitive& p = mesh.primitives[i];
+        keeper.keep(mesh, i, [&](std::size_t k) { return !narrow(root(mesh.points[i][p.indices[k]])); });
     }
 }
 
@@ -382,8 +406,8 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         scale *= kCoarser;
         mesh = subdivide(ground.primitives, coarse);
     }
-    leave_out_ledges(mesh, tracer);
-    look_up(mesh, tracer);
+    leave_out_ledges(mesh, tracer, Keeper(ground));
+    look_up(mesh, tracer, Keeper(ground));
     detail::Borders borders = detail::borders_of(mesh, tracer);
     const EdgeGrid edges(std::move(borders.open));
     const EdgeGrid closed(std::move(borders.closed));
@@ -393,6 +417,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     fine.most_levels = 8;
     fine.most_triangles = own + options.most_triangles;
     const std::vector<Primitive> looked = std::move(mesh.primitives);
+    const std::vector<std::vector<std::uint32_t>> first_cut = std::move(mesh.origins);
     fine.too_long = [&](const vec3& a, const vec3& b) {
         const vec3 middle = 0.5f * (a + b);
         const float away = nearest_eye_m(options, middle);
@@ -430,16 +455,24 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         SnowCaps::Part part;
         part.material = p.material;
         part.instance = ground.instances[i];
+        part.primitive = ground.numbers[i];
         part.first_index = static_cast<std::uint32_t>(caps.indices.size());
         part.first_corner = static_cast<std::uint32_t>(caps.corner_points.size());
+        std::vector<std::uint32_t> origins;
         for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
             const std::array<std::uint32_t, 3> t{mesh.points[i][p.indices[k]],
                                                  mesh.points[i][p.indices[k + 1]],
                                                  mesh.points[i][p.indices[k + 2]]};
-            if (!lies(caps, t)) continue;
+            const std::uint32_t origin = first_cut[i][mesh.origins[i][k / 3]];
+            if (!lies(caps, t)) {
+                ground.below[i][origin] = SnowCaps::kUncovered;
+                continue;
+            }
+            origins.push_back(origin);
             for (std::size_t c = 0; c < 3; ++c)
                 caps.indices.push_back(part.first_corner + p.indices[k + c]);
         }
+        for (const std::uint32_t origin : origins) part.below.push_back(ground.below[i][origin]);
         part.index_count = static_cast<std::uint32_t>(caps.indices.size()) - part.first_index;
         if (part.index_count == 0) continue;
         caps.corner_points.insert(caps.corner_points.end(), mesh.points[i].begin(), mesh.points[i].end());

@@ -25,6 +25,7 @@ struct SnowCapOptions {
 
 /// A cover over all that faces up and is open to the sky, ready to be lifted by the depth of the snow.
 struct SnowCaps {
+    static constexpr std::uint32_t kUncovered = 0xffffffffu;
     struct Point {
         glm::vec3 base_m{0.0f};       ///< on the scene
         float share = 0.0f;           ///< of the depth on open ground, by shelter and slope
@@ -43,6 +44,9 @@ struct SnowCaps {
         std::uint32_t first_index = 0;  ///< into `indices`
         std::uint32_t index_count = 0;
         std::uint32_t first_corner = 0;
+        std::uint32_t primitive = 0;    ///< of the instance's mesh: which one it lies on
+        /// Of each of its triangles, the one of that primitive below; kUncovered where parts of that have no cap.
+        std::vector<std::uint32_t> below;
         Primitive source;  ///< vertices of its corners, in the world; no indices
     };
     std::vector<Point> points;

@@ -9,7 +9,7 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x33706163;  // "cap3"
+constexpr std::uint32_t kMagic = 0x34706163;  // "cap4"
 static_assert(sizeof(SnowCaps::Point) == 14 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
@@ -64,7 +64,14 @@ bool fits(const SnowCaps& caps, const SnowCaps::Part& part, const Scene& scene)
 {
     const Primitive& p = part.source;
     const std::size_t corners = p.positions.size();
-    return part.material < scene.materials.size() && part.instance < scene.instances.size() &&
+    if (part.instance >= scene.instances.size()) return false;
+    const auto& primitives = scene.meshes[scene.instances[part.instance].mesh].primitives;
+    if (part.primitive >= primitives.size() || part.below.size() != part.index_count / 3) return false;
+    const std::size_t own = primitives[part.primitive].indices.size() / 3;
+    const bool all_there = std::all_of(part.below.begin(), part.below.end(), [own](std::uint32_t below) {
+        return below < own || below == SnowCaps::kUncovered;
+    });
+    return all_there && part.material < scene.materials.size() &&
            part.first_index <= caps.indices.size() &&
            part.index_count <= caps.indices.size() - part.first_index &&
            part.first_corner <= caps.corner_points.size() &&
@@ -86,8 +93,9 @@ std::vector<std::byte> snow_caps_to_bytes(const SnowCaps& caps)
     to.one(static_cast<std::uint64_t>(caps.parts.size()));
     for (const SnowCaps::Part& part : caps.parts) {
         for (const std::uint32_t v : {part.material, part.instance, part.first_index, part.index_count,
-                                      part.first_corner})
+                                      part.first_corner, part.primitive})
             to.one(v);
+        to.list(part.below);
         const Primitive& p = part.source;
         to.list(p.positions);
         to.list(p.normals);
@@ -113,8 +121,9 @@ std::optional<SnowCaps> snow_caps_from_bytes(std::span<const std::byte> bytes, c
     for (std::uint64_t i = 0; i < parts && from.good; ++i) {
         SnowCaps::Part part;
         for (std::uint32_t* v : {&part.material, &part.instance, &part.first_index, &part.index_count,
-                                 &part.first_corner})
+                                 &part.first_corner, &part.primitive})
             *v = from.one<std::uint32_t>();
+        part.below = from.list<std::uint32_t>();
         Primitive& p = part.source;
         p.material = part.material;
         p.positions = from.list<glm::vec3>();

@@ -123,6 +123,7 @@ struct Triangle {
     std::array<std::uint32_t, 3> vertices;
     std::array<std::uint32_t, 3> corners;  // points of the triangle that it is a part of
     std::array<vec3, 3> shares;            // of those corners at its own
+    std::uint32_t number;                  // of that triangle in its primitive
 };
 
 class Cutter {
@@ -142,8 +143,11 @@ public:
         for (std::size_t i = 0; i < mesh_.primitives.size(); ++i) {
             std::vector<std::uint32_t>& indices = mesh_.primitives[i].indices;
             indices.clear();
-            for (const Triangle& t : triangles_[i])
+            auto& origins = mesh_.origins.emplace_back();
+            for (const Triangle& t : triangles_[i]) {
                 indices.insert(indices.end(), t.vertices.begin(), t.vertices.end());
+                origins.push_back(t.number);
+            }
         }
         if (options_.phong > 0.0f) smooth();
         mesh_.normals = std::move(normals_);
@@ -183,7 +187,8 @@ private:
             auto& list = triangles_.emplace_back();
             const auto& points = mesh_.points[i];
             for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
-                Triangle t{{p.indices[k], p.indices[k + 1], p.indices[k + 2]}, {}, {}};
+                Triangle t{{p.indices[k], p.indices[k + 1], p.indices[k + 2]}, {}, {},
+                           static_cast<std::uint32_t>(k / 3)};
                 for (std::size_t c = 0; c < 3; ++c) {
                     t.corners[c] = points[t.vertices[c]];
                     t.shares[c] = vec3(0.0f);
@@ -305,7 +310,7 @@ private:
     {
         // Corners 0..2, then the middles of the edges 01, 12, 20.
         const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-            Triangle part{{}, t.corners, {}};
+            Triangle part{{}, t.corners, {}, t.number};
             const std::array<std::size_t, 3> which{a, b, c};
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t w = which[k];

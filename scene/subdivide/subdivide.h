@@ -29,6 +29,7 @@ struct CutMesh {
     std::vector<std::vector<std::uint32_t>> points;  ///< of each primitive: the point of each vertex
     std::vector<glm::vec3> normals;  ///< of each point, unit: the mean of its vertices'
     std::vector<bool> pinned;        ///< of each point: on an edge of a primitive that is not cut
+    std::vector<std::vector<std::uint32_t>> origins;  ///< of each primitive: which of its triangles each was a part of
     bool limited = false;            ///< `most_triangles` ended it
 };
 

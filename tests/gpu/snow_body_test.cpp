@@ -100,6 +100,52 @@ TEST_F(SnowBodyTest, AFrameAloneIsTheFrameOfARun)
     EXPECT_EQ(renderer->render(frame(0.12f)).beauty, run.beauty);
 }
 
+// The maps of the sun leave out what deep snow covers: its caps stand for it.
+TEST_F(SnowBodyTest, WhatItCoversIsMissedNowhere)
+{
+    // Rough ground in small triangles, cut off at x = 2 m above lower ground.
+    Primitive ground;
+    constexpr int kCells = 40;
+    for (int y = 0; y <= kCells; ++y) {
+        for (int x = 0; x <= kCells; ++x) {
+            ground.positions.emplace_back(0.125f * static_cast<float>(x) - 3.0f, 0.01f * static_cast<float>((x * 7 + y * 13) % 5),
+                                          2.5f - 0.125f * static_cast<float>(y));
+            ground.normals.emplace_back(0.0f, 1.0f, 0.0f);
+            ground.uv0.emplace_back(0.0f);
+            if (x == kCells || y == kCells) continue;
+            const auto at = static_cast<std::uint32_t>(y * (kCells + 1) + x);
+            ground.indices.insert(ground.indices.end(), {at, at + 1, at + kCells + 2, at, at + kCells + 2, at + kCells + 1});
+        }
+    }
+    const Scene rough = scene_of({quad({-6, -0.5f, 6}, {12, 0, 0}, {0, 0, -12}), ground}, {plain_material(glm::vec3(0.2f))});
+    const scene::Triangles triangles(rough, {});
+    const scene::Tracer tracer(triangles);
+    auto own = std::make_shared<scene::SnowCaps>(scene::build_snow_caps(tracer, {}));
+    auto none = std::make_shared<scene::SnowCaps>(*own);
+    std::size_t told = 0;
+    for (scene::SnowCaps::Part& part : none->parts) {
+        for (std::uint32_t& below : part.below) {
+            told += below != scene::SnowCaps::kUncovered ? 1 : 0;
+            below = scene::SnowCaps::kUncovered;
+        }
+    }
+    ASSERT_GT(told, 3000u);
+    std::vector<Frame> frames;
+    for (const float elevation : {0.06f, 0.3f, 1.2f}) {
+        Frame f = frame(0.2f);
+        f.camera = look({0.5f, 1.2f, 5}, {0, -0.2f, 0});
+        f.sky.sun_elevation_rad = elevation;
+        f.sky.sun_azimuth_rad = 4.5f;
+        f.settings.exposure = 1e-5f;
+        frames.push_back(f);
+    }
+    renderer->load(rough, {}, own);
+    std::vector<std::vector<std::uint16_t>> without;
+    for (const Frame& f : frames) without.push_back(renderer->render(f).beauty);
+    renderer->load(rough, {}, none);
+    for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(renderer->render(frames[i]).beauty, without[i]) << i;
+}
+
 TEST_F(SnowBodyTest, BothWaysToShadeShowIt)
 {
     renderer->load(scene, {}, caps);

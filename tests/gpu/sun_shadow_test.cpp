@@ -1,5 +1,6 @@
 // The shadow of the sun: flat things do not shadow themselves, and what juts out by little does.
 #include <algorithm>
+#include <cmath>
 
 #include "gpu/frame/view.h"
 #include "tests/gpu/gpu_fixture.h"
@@ -120,6 +121,91 @@ TEST_F(SunShadowTest, TheFootOfAWallInTheSunIsHardlyDarker)
     const Shares s = shares(*renderer, frame);
     EXPECT_GT(s.darkest, 0.5f);
     EXPECT_LT(s.darker, 4 * kSize) << "a line of few pixels";
+}
+
+bool may_ask(const DepthView& view, const glm::vec3& at)
+{
+    const glm::vec4 clip = view.clip_from_world * glm::vec4(at, 1.0f);
+    for (int i = 0; i < view.asked.count; ++i) {
+        const glm::vec3& line = view.asked.lines[static_cast<std::size_t>(i)];
+        if (line.x * clip.x + line.y * clip.y + line.z < 0.0f) return false;
+    }
+    return clip.z >= view.asked.least_z;
+}
+
+TEST(SunShadow, AMapIsAskedBySliceOfTheViewAndNotBesideIt)
+{
+    const Bounds bounds{{-80, 0, -80}, {80, 30, 80}};
+    const Camera camera = look({3, 1.7f, 10}, {-4, 0.4f, -20}, 0.9f);
+    const glm::vec3 ends = cascade_ends_m(camera, bounds);
+    const glm::mat4& m = camera.to_world;
+    const glm::vec3 ahead = -glm::vec3(m[2]), right(m[0]), up(m[1]);
+    const float high = std::tan(0.45f), wide = 1.5f * high;
+    for (const glm::vec3& to_sun : {glm::vec3(1, 0.05f, 0.2f), glm::vec3(-0.3f, 0.2f, -1), glm::vec3(0.1f, 1, 0)}) {
+        const auto views = cascade_views(camera, 1.5f, glm::normalize(to_sun), bounds);
+        int outside = 0;
+        for (int k = 0; k < SHADOW_CASCADES; ++k) {
+            const DepthView& view = views[static_cast<std::size_t>(k)];
+            ASSERT_GE(view.asked.count, 3);
+            const float begin = k == 0 ? camera.near_m : ends[k - 1];
+            for (int i = 0; i < 1000; ++i) {
+                const auto part = [i](int step) { return static_cast<float>(i * step % 1000) / 999.0f; };
+                const float away = begin + (ends[k] - begin) * part(1);
+                const glm::vec3 seen = glm::vec3(m[3]) + ahead * away + right * (wide * away * (2.0f * part(7) - 1.0f)) +
+                                       up * (high * away * (2.0f * part(31) - 1.0f));
+                EXPECT_TRUE(may_ask(view, seen)) << k << " " << i;
+                // What lies towards the sun from there throws its shadow there.
+                const glm::vec4 a = view.clip_from_world * glm::vec4(seen, 1.0f);
+                const glm::vec4 b = view.clip_from_world * glm::vec4(seen + glm::normalize(to_sun) * 3.0f, 1.0f);
+                EXPECT_NEAR(a.x, b.x, 1e-4f);
+                EXPECT_GT(b.z, a.z);
+                const glm::vec3 around(160.0f * part(13) - 80.0f, 1.0f, 160.0f * part(57) - 80.0f);
+                outside += may_ask(view, around) ? 0 : 1;
+            }
+        }
+        EXPECT_GT(outside, 1500) << "of 3000 anywhere in the scene";
+    }
+}
+
+TEST_F(SunShadowTest, WhatIsLeftOutOfTheMapsChangesNoPixel)
+{
+    // Posts all around, in one draw that is sorted out triangle by triangle, and a wall far off towards the sun.
+    Primitive posts;
+    for (int i = 0; i < 400; ++i) {
+        const glm::vec3 at(static_cast<float>(i % 20) * 6.0f - 60.0f, 0.0f, static_cast<float>(i / 20) * 6.0f - 60.0f);
+        const float tall = 0.5f + 0.25f * static_cast<float>(i % 7);
+        for (const glm::vec3& side : {glm::vec3(0.3f, 0, 0), glm::vec3(0, 0, 0.3f)}) {
+            const Primitive face = quad(at - 0.5f * side, side, {0, tall, 0});
+            const auto first = static_cast<std::uint32_t>(posts.positions.size());
+            posts.positions.insert(posts.positions.end(), face.positions.begin(), face.positions.end());
+            posts.normals.insert(posts.normals.end(), face.normals.begin(), face.normals.end());
+            posts.uv0.insert(posts.uv0.end(), face.uv0.begin(), face.uv0.end());
+            for (const std::uint32_t v : face.indices) posts.indices.push_back(first + v);
+        }
+    }
+    Material both = grey();
+    both.double_sided = true;
+    renderer->load(scene_of({quad({-90, 0, 90}, {180, 0, 0}, {0, 0, -180}), posts, quad({-80, 0, -85}, {160, 0, 0}, {0, 9, 0})},
+                            {both}),
+                   {});
+    for (const float elevation : {3.0f, 25.0f, 70.0f}) {
+        for (const float azimuth : {10.0f, 130.0f, 275.0f}) {
+            Frame frame = under_the_sun(elevation, azimuth);
+            frame.settings.samples = 1;
+            frame.settings.shadows = true;
+            frame.camera = look({1, 1.7f, 12}, {-6, 0.4f, -20}, 0.9f);
+            const RenderResult part = renderer->render(frame);
+            frame.lens = {.radius_m = 1e-9f, .focus_m = 10.0f};  // sees past the view: its maps are whole
+            const RenderResult whole = renderer->render(frame);
+            EXPECT_EQ(part.beauty, whole.beauty) << elevation << " " << azimuth;
+            // A map that is kept while the camera turns holds what it did not look at before.
+            frame.lens = {};
+            frame.camera = look({1, 1.7f, 12}, {20, 0.4f, 20}, 0.9f);
+            const RenderResult turned = renderer->render(frame);
+            frame.lens = {.radius_m = 1e-9f, .focus_m = 10.0f};
+            EXPECT_EQ(turned.beauty, renderer->render(frame).beauty) << elevation << " " << azimuth;
+        }
+    }
 }
 
 }  // namespace

@@ -204,6 +204,49 @@ TEST(SnowCaps, NarrowLedgesHaveNone)
     EXPECT_TRUE(body_on_a_ledge(0.12f));
 }
 
+// Each triangle of a cap knows what it lies on; what parts of have no cap is not told.
+TEST(SnowCaps, KnowWhatLiesBelowThem)
+{
+    const Scene scene = yard();
+    const SnowCaps caps = caps_of(scene);
+    for (const SnowCaps::Part& part : caps.parts) {
+        const Instance& instance = scene.instances[part.instance];
+        const Primitive& p = scene.meshes[instance.mesh].primitives[part.primitive];
+        ASSERT_EQ(part.below.size(), part.index_count / 3);
+        std::map<std::uint32_t, double> area_m2;
+        for (std::size_t t = 0; t < part.below.size(); ++t) {
+            const std::uint32_t below = part.below[t];
+            if (below == SnowCaps::kUncovered) continue;
+            const auto base = [&](std::size_t c) {
+                return caps.points[caps.corner_points[caps.indices[part.first_index + 3 * t + c]]].base_m;
+            };
+            const auto own = [&](std::size_t c) {
+                return vec3(instance.to_world * glm::vec4(p.positions[p.indices[3 * below + c]], 1.0f));
+            };
+            const vec3 middle = (base(0) + base(1) + base(2)) / 3.0f;
+            const vec3 face = glm::cross(own(1) - own(0), own(2) - own(0));
+            for (std::size_t c = 0; c < 3; ++c) {  // within it
+                const vec3 side = glm::cross(own((c + 1) % 3) - own(c), middle - own(c));
+                EXPECT_GE(glm::dot(side, face), -1e-4f);
+            }
+            EXPECT_NEAR(glm::dot(middle - own(0), glm::normalize(face)), 0.0f, 1e-4f);
+            area_m2[below] += 0.5 * static_cast<double>(glm::length(glm::cross(base(1) - base(0), base(2) - base(0))));
+        }
+        for (const auto& [below, covered] : area_m2) {
+            const auto own = [&](std::size_t c) {
+                return vec3(instance.to_world * glm::vec4(p.positions[p.indices[3 * below + c]], 1.0f));
+            };
+            EXPECT_NEAR(covered, 0.5 * static_cast<double>(glm::length(glm::cross(own(1) - own(0), own(2) - own(0)))), 1e-3)
+                << "all of it";
+        }
+    }
+    const auto told = [](const SnowCaps::Part& part) {
+        return std::any_of(part.below.begin(), part.below.end(),
+                           [](std::uint32_t below) { return below != SnowCaps::kUncovered; });
+    };
+    EXPECT_TRUE(std::any_of(caps.parts.begin(), caps.parts.end(), told));
+}
+
 TEST(SnowCaps, AreReadBackBitForBit)
 {
     const Scene scene = yard();

@@ -51,14 +51,15 @@ glm::vec4 eye_of(const glm::mat4& clip_from_world)
 }  // namespace
 
 Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::mat4& clip_from_world,
-                   int size, Falls falls)
+                   int size, Falls falls, const AskedPart& asked)
 {
     const Frustum frustum(clip_from_world);
     const auto wanted = [&](const Draw& draw) {
-        return is_caster(scene, draw, falls) && frustum.touches(draw.centre_m, draw.radius_m);
+        return is_caster(scene, draw, falls) && frustum.touches(draw.centre_m, draw.radius_m) &&
+               asked_of(asked, clip_from_world, draw.centre_m, draw.radius_m);
     };
     Casters casters;
-    casters.seen = triangles.list(scene, {clip_from_world, size, size}, true, wanted);
+    casters.seen = triangles.list(scene, {clip_from_world, size, size, {glm::vec2(0.0f)}, falls == Falls::Light, asked}, true, wanted);
     InstancePlaces& places = triangles.places();
     casters.places = places.texels();
     const auto listed = [&](const Draw& draw) {
@@ -182,7 +183,7 @@ void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
                    SeenTriangles& triangles, const DepthView& view, GpuImage& map, VkImageView layer,
                    Falls falls)
 {
-    const Casters casters = casters_in(triangles, scene, view.clip_from_world, map.width, falls);
+    const Casters casters = casters_in(triangles, scene, view.clip_from_world, map.width, falls, view.asked);
     graph.add(DrawPass{.name = name,
                        .colors = {},
                        .depth = Attachment(map, layer),
@@ -233,12 +234,18 @@ DepthMaps::DepthMaps(const Device& device, MemoryArena& arena)
 void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenTriangles& triangles,
                 const std::array<DepthView, SHADOW_CASCADES>& views, std::size_t first)
 {
+    // Where one map is enough, for the small frame that is metered, what lies on the scene is flatter than its texels.
+    const Falls falls = first == 0 ? Falls::Light : Falls::Sky;
     for (std::size_t i = first; i < SHADOW_CASCADES; ++i) {
-        if (maps.shadow_valid[i] && views[i] == maps.shadow_views[i]) continue;
-        maps.shadow_views[i] = views[i];
+        DepthView& held = maps.shadow_views[i];
+        const bool kept = maps.shadow_valid[i] && views[i] == held;
+        if (kept && (held.asked.count == 0 || held.asked == views[i].asked)) continue;
+        held = views[i];
+        // The camera moves and its map does not: whole, the map lasts.
+        if (kept) held.asked = {};
         maps.shadow_valid[i] = true;
         add_depth_map(graph, "shadow", scene, triangles, maps.shadow_views[i], *maps.shadow,
-                      maps.shadow_layers[i].get(), Falls::Light);
+                      maps.shadow_layers[i].get(), falls);
     }
 }
 

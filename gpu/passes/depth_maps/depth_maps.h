@@ -55,16 +55,17 @@ struct Casters {
     std::shared_ptr<const SeenDraws> seen;  ///< of single ones; null: all their triangles
 };
 
-/// What a square map of `size` texels may show.
+/// What a square map of `size` texels may show where it is asked.
 Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::mat4& clip_from_world,
-                   int size, Falls falls);
+                   int size, Falls falls, const AskedPart& asked = {});
 void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
                   Falls falls, const Casters& casters);
 
 /// One layer of an array as an attachment.
 ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uint32_t layer);
 
-// Depth of the scene from the sun: the cascades from number `first` on, those whose views have changed.
+// Depth of the scene from the sun: the cascades from number `first` on, those whose views have changed. From another
+// than the first on, without what lies on the scene.
 //
 //   writes   shadow
 void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenTriangles& triangles,
