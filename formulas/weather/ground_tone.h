@@ -31,15 +31,16 @@ SHARED_FN float ground_moisture(vec2 xz, float width_m)
     const vec2 bent = turned + vec2(40.0f * near, 9.0f * fine);
     const float wide = ground_octave(bent + 17.0f, 88.0f, 227u, width_m);
     const float land = ground_octave(xz + vec2(9.0f * near, 120.0f * wide), 330.0f, 229u, width_m);
-    return 0.65f * land + 0.5f * wide + 0.32f * near + 0.22f * fine;
+    const float grain = ground_octave(other + 1.3f, 1.9f, 233u, width_m);
+    return 0.65f * land + 0.5f * wide + 0.32f * near + 0.22f * fine + 0.18f * grain;
 }
 
-// Factor of the albedo, 1 in the mean; at strength 1 its deviation is 14 % of red, 9 % of green, 8 % of blue: moist
+// Factor of the albedo, 1 in the mean; at strength 1 its deviation is 12 % of red, 9 % of green, 8 % of blue: moist
 // ground is dark and green, dry ground pale and yellow.
 SHARED_FN vec3 ground_tone(vec2 xz, float width_m, float strength)
 {
     const float dry = -strength * ground_moisture(xz, width_m);
-    return max(vec3(1.0f) + dry * vec3(0.68f, 0.46f, 0.38f), vec3(0.25f));
+    return max(vec3(1.0f) + dry * vec3(0.60f, 0.46f, 0.41f), vec3(0.25f));
 }
 
 SHARED_END

@@ -55,15 +55,6 @@ float level_in_relief(SurfaceInput at, uvec2 near, float other)
     return -1.0;
 }
 
-// Of wide ground patches are metres wide, and turns by chance would be a screen of dots over all of them: there their
-// borders wind through the world instead, as far to either side.
-vec3 patch_bends(vec3 at_m)
-{
-    const vec2 p = at_m.xz / 0.7;
-    const vec3 n = vec3(endless_noise(p, 307u), endless_noise(at_m.xy / 0.7, 311u), endless_noise(p + 5.3, 313u));
-    return clamp((n - 0.5) * 1.7 + 0.5, 0.0, 0.999);
-}
-
 LocalWeather local_weather(SurfaceInput at)
 {
     if (PLACE == 0u) return weather_everywhere(at, true);
@@ -71,9 +62,8 @@ LocalWeather local_weather(SurfaceInput at)
     // patches.
     const uint seed = hash_u3(uint(at.pixel.x), uint(at.pixel.y), 29u);
     const vec3 first = vec3(hash_f(seed), hash_f(seed ^ 0x9e3779b9u), hash_f(seed ^ 0x7f4a7c15u));
-    vec3 turn =
+    const vec3 turn =
         fract(first + float(frame.sample_index) * vec3(0.8191725, 0.6710436, 0.5497005));
-    if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) turn = patch_bends(at.position);
     const uvec2 near = place_patches(at.position, at.normal, turn - 0.5);
     if (near.y == kNoPatch) {
         LocalWeather everywhere = weather_everywhere(at, near.y == kNoPatch);
