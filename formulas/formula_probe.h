@@ -319,7 +319,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 xz = vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f);
         return vec4(ground_relief_seen(xz, 3.0f * c.x) + ground_relief_blurred(3.0f * c.x) + drifted_share(3.0f * xz),
                     level_ground(0.99f + 0.01f * a.z) + ground_tone(7.0f * xz, 300.0f * b.w * b.w, 2.0f * c.y).y,
-                    level_share(a.w, b.x) + ground_moisture(3.0f * xz, 40.0f * c.z * c.z),
+                    level_share(a.w, b.x) + ground_moisture(3.0f * xz, 40.0f * c.z * c.z) + wide_relief_m(xz, 4.0f * c.w),
                     frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
     }
     if (kind == 33) {
@@ -430,7 +430,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float veil = gust_veil(from, from + 40.0f * vec3(b.x - 0.5f, 0.1f * b.y, b.z - 0.5f),
                                      kGustPeriod_m * vec2(c.x, c.y), a.w);
         const WaterCover pond = pond_cover(0.05f * b.w - 0.005f, 0.03f * a.y);
-        return vec4(veil, gust_strength(10.0f * c.z, 2.0f * c.w), pond.anywhere, pond.deep);
+        const WaterCover marsh = marsh_cover(0.2f * b.w - 0.02f, 0.05f * a.y);
+        return vec4(veil, gust_strength(10.0f * c.z, 2.0f * c.w), pond.anywhere + marsh.anywhere, pond.deep + marsh.deep);
     }
     if (kind == 53) {
         // At the middles of cells and of what one serves: elsewhere the last bit chooses another.

@@ -70,6 +70,16 @@ SHARED_FN WaterCover pond_cover(float depth_m, float stands_m)
     return cover;
 }
 
+// The same on wide ground, where blades and clods stand through the first hand's breadth of it: no edge, but a marsh.
+SHARED_FN WaterCover marsh_cover(float depth_m, float stands_m)
+{
+    const float over_m = depth_m > 0.0f ? depth_m - stands_m : 0.0f;
+    WaterCover cover;
+    cover.anywhere = smooth_edge(0.0f, 0.09f, over_m);
+    cover.deep = smooth_edge(0.02f, 0.12f, over_m);
+    return cover;
+}
+
 // Ground so level that water stays on it: up to 1.5 degrees, none from 6 degrees on.
 SHARED_FN float level_ground(float normal_up)
 {

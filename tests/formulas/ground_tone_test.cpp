@@ -81,6 +81,30 @@ TEST(GroundTone, VariesOverMetresToHundredsOfMetres)
     EXPECT_GT(before, 0.2);
 }
 
+// A pond of wide ground ends in a marsh: never wider than the water, the deeper the more of it, whole in the end.
+TEST(MarshCover, RisesWithTheDepthWithinThePond)
+{
+    for (const float stands_m : {-0.05f, 0.0f, 0.04f}) {
+        EXPECT_EQ(marsh_cover(0.0f, stands_m).anywhere, 0.0f);
+        EXPECT_EQ(marsh_cover(-0.3f, stands_m).deep, 0.0f);
+        WaterCover before = marsh_cover(0.0f, stands_m);
+        for (float depth_m = 0.002f; depth_m < 0.3f; depth_m += 0.002f) {
+            const WaterCover now = marsh_cover(depth_m, stands_m);
+            EXPECT_GE(now.anywhere, before.anywhere);
+            EXPECT_GE(now.deep, before.deep);
+            EXPECT_LE(now.anywhere, pond_cover(depth_m, stands_m).anywhere);
+            EXPECT_LE(now.deep, now.anywhere);
+            before = now;
+        }
+        EXPECT_EQ(before.anywhere, 1.0f);
+        EXPECT_EQ(before.deep, 1.0f);
+    }
+    const Spread relief = spread_of(40000, [](vec2 at) { return wide_relief_m(at, 0.0f); });
+    EXPECT_NEAR(relief.mean, 0.0, 0.001);
+    EXPECT_NEAR(relief.deviation, 0.02, 0.006);
+    EXPECT_LT(spread_of(4000, [](vec2 at) { return wide_relief_m(at, 30.0f); }).deviation, 0.2 * relief.deviation);
+}
+
 // One map alone has itself again a step of its tile on; with its second reading no step has.
 TEST(SnowMaskOfTwo, RepeatsNowhere)
 {
