@@ -36,6 +36,7 @@
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/ground_tone.h"
 #include "formulas/weather/gusts.h"
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
@@ -97,7 +98,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 1) {
         const SnowCover s = snow_cover(a.x, a.y, 2.0f * a.z - 1.0f, 2.0f * a.w, b.x, b.y, b.z, b.w, 0.3f * c.x);
-        return vec4(s.snow, s.melt, snow_rests(2.0f * a.z - 1.0f),
+        const vec2 across = place_across(300.0f * vec2(a.x, a.y));
+        return vec4(s.snow, s.melt,
+                    snow_rests(2.0f * a.z - 1.0f) + mask_of_two(b.y, b.z, b.w) + snow_holds(across, 5.0f * a.w * a.w),
                     snow_mask_blurred(20.0f * c.y, vec2(0.1f + c.z, 2.0f * c.w)));
     }
     if (kind == 2) {
@@ -316,7 +319,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 31) {
         const vec2 xz = vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f);
         return vec4(ground_relief_seen(xz, 3.0f * c.x) + ground_relief_blurred(3.0f * c.x) + drifted_share(3.0f * xz),
-                    level_ground(0.99f + 0.01f * a.z), level_share(a.w, b.x),
+                    level_ground(0.99f + 0.01f * a.z) + ground_tone(7.0f * xz, 300.0f * b.w * b.w, 2.0f * c.y).y,
+                    level_share(a.w, b.x) + ground_moisture(3.0f * xz, 40.0f * c.z * c.z) + wide_relief_m(xz, 4.0f * c.w),
                     frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
     }
     if (kind == 33) {
@@ -427,7 +431,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float veil = gust_veil(from, from + 40.0f * vec3(b.x - 0.5f, 0.1f * b.y, b.z - 0.5f),
                                      kGustPeriod_m * vec2(c.x, c.y), a.w);
         const WaterCover pond = pond_cover(0.05f * b.w - 0.005f, 0.03f * a.y);
-        return vec4(veil, gust_strength(10.0f * c.z, 2.0f * c.w), pond.anywhere, pond.deep);
+        const WaterCover marsh = marsh_cover(0.2f * b.w - 0.02f, 0.05f * a.y);
+        return vec4(veil, gust_strength(10.0f * c.z, 2.0f * c.w), pond.anywhere + marsh.anywhere, pond.deep + marsh.deep);
     }
     if (kind == 53) {
         // At the middles of cells and of what one serves: elsewhere the last bit chooses another.

@@ -79,6 +79,8 @@ struct WeatherLook {
     float snow_line_ragged MOMENT_DEFAULT(1.0f);
     // How much of what snow mirrors of the sun is gathered on single crystals: 0 none, an even sheet.
     float snow_sparkle MOMENT_DEFAULT(1.0f);
+    // How far the colour of wide ground varies from place to place: 0 nowhere, 1 as fields do.
+    float ground_variation MOMENT_DEFAULT(1.0f);
     float ripple_tiling MOMENT_DEFAULT(0.8f);  // repeats per metre
     float ripple_speed MOMENT_DEFAULT(1.0f);   // 1 as photographed
     // How far a ring shifts what lies below, in texture coordinates a slope. Lux has 0.5, half a

@@ -70,6 +70,16 @@ SHARED_FN WaterCover pond_cover(float depth_m, float stands_m)
     return cover;
 }
 
+// The same on wide ground, where blades and clods stand through the first hand's breadth of it: no edge, but a marsh.
+SHARED_FN WaterCover marsh_cover(float depth_m, float stands_m)
+{
+    const float over_m = depth_m > 0.0f ? depth_m - stands_m : 0.0f;
+    WaterCover cover;
+    cover.anywhere = smooth_edge(0.0f, 0.09f, over_m);
+    cover.deep = smooth_edge(0.02f, 0.12f, over_m);
+    return cover;
+}
+
 // Ground so level that water stays on it: up to 1.5 degrees, none from 6 degrees on.
 SHARED_FN float level_ground(float normal_up)
 {
@@ -131,6 +141,28 @@ SHARED_FN float snow_rests(float normal_up)
 {
     const float up = max(normal_up, 0.0f);
     return min(up / 0.76604444f, 1.0f) - up;
+}
+
+// A map of a few metres repeats, and over wide ground the eye finds the lattice at once. So wide ground reads it at two
+// places, of which this is the second: turned, and 1.8 times as wide, so that no dozen of steps of the one is near steps of the other.
+SHARED_FN vec2 place_across(vec2 p)
+{
+    return vec2(0.428985f * p.x - 0.359961f * p.y, 0.359961f * p.x + 0.428985f * p.y);
+}
+
+// What the two say together, with the mean and the deviation of one.
+SHARED_FN float mask_of_two(float first, float second, float mean)
+{
+    return saturate(mean + 0.70710678f * (first - mean + second - mean));
+}
+
+// What snow_cover adds to the slope of wide ground: tufts and steps that no mesh has hold it, smooth places shed it, so
+// that it ends over some degrees and not at one. 0 in the mean, less the wider the pixel is.
+SHARED_FN float snow_holds(vec2 xz, float width_m)
+{
+    const float tufts = (endless_noise(xz / 0.9f, 241u) - 0.5f) * sqrt(1.0f - variance_lost(width_m, 0.6f));
+    const float steps = (endless_noise(xz / 4.3f + 3.1f, 251u) - 0.5f) * sqrt(1.0f - variance_lost(width_m, 2.6f));
+    return 0.3f * tufts + 0.4f * steps;
 }
 
 // `blurred` of snow_cover for the masks of weather_maps.h: their mean 0.7067 and deviation 0.135 are those of

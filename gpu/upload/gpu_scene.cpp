@@ -14,6 +14,7 @@
 #include "gpu/upload/draw.h"
 #include "gpu/upload/emissive_lights.h"
 #include "gpu/upload/material_constants.h"
+#include "gpu/upload/wide_ground.h"
 
 namespace petrichor::gpu {
 
@@ -436,6 +437,7 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
                              .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT,
                              .host = true});
     sources_ = current_ = scene.materials;
+    wide_ground_ = wide_ground(scene);
     const SamplerHandle& plain = sampler(device, Wrap::Repeat, Wrap::Repeat, false);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& source = scene.materials[i];
@@ -492,7 +494,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                        (source.iridescence > 0.0f ? BESIDES_IRIDESCENT : 0u) |
                        (softens(source) ? BESIDES_SOFT_NORMAL : 0u) |
                        (c.anisotropy_strength > 0.0f ? BESIDES_ALONG : 0u) |
-                       (one_read(source, c) ? BESIDES_ONE_READ : 0u);
+                       (one_read(source, c) ? BESIDES_ONE_READ : 0u) |
+                       (wide_ground_[index] ? BESIDES_WIDE_GROUND : 0u);
     material.water &= ~WATER_BEADS;
     if (material.water != 0 && source.weather.beads > 0.0f) material.water |= WATER_BEADS;
     if (material.layers != 0) c.lighting_model = set_layers(material, source);

@@ -210,6 +210,7 @@ private:
     std::vector<Material> current_;  // with the changes of the frame
     std::vector<MaterialChange> changes_;
     std::vector<bool> loaded_;  // textures that have pixels
+    std::vector<bool> wide_ground_;  // by material
     VkDeviceSize constants_stride_ = 0;
     std::vector<Light> lights_;
     std::vector<GlowSource> glow_sources_;

@@ -183,6 +183,7 @@
 #define BESIDES_SHARES 8u       // lighting reads shares in this scene
 #define BESIDES_ALONG 16u       // its light depends on the tangent
 #define BESIDES_ONE_READ 32u    // occlusion is a channel of what roughness and metal are read from
+#define BESIDES_WIDE_GROUND 64u // its colour varies over the land (formulas/weather/ground_tone.h)
 
 // Indices of alpha_mode.
 #define ALPHA_OPAQUE 0u

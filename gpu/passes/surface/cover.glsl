@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_COVER_GLSL
 #define PETRICHOR_SURFACE_COVER_GLSL
 
+#include "formulas/weather/ground_tone.h"
 #include "gpu/passes/surface/frost.glsl"
 #include "gpu/passes/surface/local_weather.glsl"
 #include "gpu/passes/surface/snow.glsl"
@@ -92,7 +93,13 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     if (WATER != 0u) water = water_on(at, here);
     if (max(here.pond_m, water.depth_m) > 0.0) {
         // A pond drowns what stands in it by and by.
-        const WaterCover pond = pond_cover(here.pond_m, water.stands_m);
+        WaterCover pond = pond_cover(here.pond_m, water.stands_m);
+        if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
+            const vec2 dx = at.position_dx.xz;
+            const vec2 dy = at.position_dy.xz;
+            const float relief_m = wide_relief_m(at.position.xz, sqrt(max(dot(dx, dx), dot(dy, dy))));
+            pond = marsh_cover(here.pond_m, water.stands_m + relief_m);
+        }
         water.anywhere = max(water.anywhere, max(water.below, pond.anywhere));
         water.deep = max(water.deep, max(smooth_edge(0.0005, 0.006, water.depth_m), pond.deep));
     }

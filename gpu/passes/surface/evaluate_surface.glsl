@@ -10,6 +10,7 @@
 
 #include "formulas/geometry/footprint.h"
 #include "formulas/light/layers.h"
+#include "formulas/weather/ground_tone.h"
 #include "gpu/passes/surface/beads.glsl"
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
@@ -82,6 +83,11 @@ SurfaceData evaluate_surface(SurfaceInput at)
         if (SECOND == SECOND_DETAIL && has(TEXTURE_SECOND_BASE_COLOR)) {
             base = detail_color(base, other, detail_share(at));
         }
+    }
+    if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
+        const vec2 dx = at.position_dx.xz;
+        const vec2 dy = at.position_dy.xz;
+        base *= ground_tone(at.position.xz, sqrt(max(dot(dx, dx), dot(dy, dy))), frame.look.ground_variation);
     }
 #ifdef SURFACE_ALPHA
     data.alpha = surface_alpha(at);

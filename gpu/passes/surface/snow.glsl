@@ -30,6 +30,18 @@ vec4 snow_map_at(SurfaceInput at, int number)
     return texel_from_above(snow_map, at, frame.look.snow_tiling[number], vec2(0.0));
 }
 
+// Where snow lies first. Of wide ground by two readings of the map, whatever map that is: its coarsest level is its mean.
+float snow_mask(SurfaceInput at)
+{
+    const float first = snow_map_at(at, kSnowMask).b;
+    if ((BESIDES & BESIDES_WIDE_GROUND) == 0u || (SNOW & SNOW_LOCAL) != 0u) return first;
+    const float tiling = frame.look.snow_tiling[kSnowMask];
+    const vec2 p = place_across(at.position.xz * tiling);
+    const vec2 dx = place_across(at.position_dx.xz * tiling);
+    const vec2 dy = place_across(at.position_dy.xz * tiling);
+    return mask_of_two(first, textureGrad(snow_map, p, dx, dy).b, textureLod(snow_map, p, 16.0).b);
+}
+
 // The material's own mask: 1 snow may lie .. 0 never.
 float unique_mask(SurfaceInput at)
 {
@@ -52,7 +64,7 @@ float snow_masks_blurred(SurfaceInput at)
 // smoothed_up: y of the pixel normal, smoothed by the snow's amount.
 SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
 {
-    const float mask = snow_map_at(at, kSnowMask).b;
+    const float mask = snow_mask(at);
     const float melt = frame.weather.melt * material.snow_accumulation.y;
     const float height = snow_line_factor(at.position, frame.weather.snow_start_height_m,
                                           frame.weather.snow_height_blend_m, frame.look.snow_line_ragged);
@@ -68,7 +80,14 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
         return snow_cover_of_vertices(amount, at.normal.y, material.snow_slope_damp, mask, detail, melt,
                                       blurred);
     }
-    return snow_cover(amount, height, smoothed_up + snow_rests(at.normal.y), material.snow_slope_damp,
+    float holds = snow_rests(at.normal.y);
+    if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
+        const vec2 dx = at.position_dx.xz;
+        const vec2 dy = at.position_dy.xz;
+        // Level ground holds all of it; it counts from where snow would slide.
+        holds += (1.0 - smooth_edge(0.7, 0.85, at.normal.y)) * snow_holds(at.position.xz, sqrt(max(dot(dx, dx), dot(dy, dy))));
+    }
+    return snow_cover(amount, height, smoothed_up + holds, material.snow_slope_damp,
                       unique_mask(at), mask, detail, melt, blurred);
 }
 

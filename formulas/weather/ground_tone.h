@@ -1,0 +1,57 @@
+// How the colour of wide ground varies from place to place: soil, moisture and growth are nowhere the same over a
+// field, and a texture of a few metres knows nothing of it. Without it a plain seen from above is one flat colour.
+// In world space and stateless; sizes and strengths are ours, chosen by eye.
+//
+// One text for C++ and GLSL.
+#ifndef PETRICHOR_FORMULAS_WEATHER_GROUND_TONE_H
+#define PETRICHOR_FORMULAS_WEATHER_GROUND_TONE_H
+
+#include "base/interop.h"
+#include "formulas/noise/noise.h"
+
+SHARED_BEGIN
+
+// A material has ground so wide that it varies from this area on that faces up, m2; 140 m by 140 m.
+SHARED_CONST float kWideGround_m2 = 20000.0f;
+
+// Noise around 0 of cells of a width, less of it the wider the pixel: the mean of a pixel that holds many cells is 0.
+SHARED_FN float ground_octave(vec2 at_m, float cell_m, uint seed, float width_m)
+{
+    return (endless_noise(at_m / cell_m, seed) - 0.5f) * sqrt(1.0f - variance_lost(width_m, 0.6f * cell_m));
+}
+
+// -1 dry and thin .. 1 moist and thick; its mean is 0, its deviation 0.2. Lattices of the octaves are turned against
+// each other, and the wide ones bent by the finer, so that no direction shows. width_m: of the pixel on the ground.
+SHARED_FN float ground_moisture(vec2 xz, float width_m)
+{
+    const vec2 turned = vec2(0.83f * xz.x - 0.56f * xz.y, 0.56f * xz.x + 0.83f * xz.y);
+    const vec2 other = vec2(0.36f * xz.x + 0.93f * xz.y, 0.36f * xz.y - 0.93f * xz.x);
+    const float fine = ground_octave(turned + 3.7f, 7.3f, 211u, width_m);
+    const float near = ground_octave(other + 9.1f, 31.0f, 223u, width_m);
+    const vec2 bent = turned + vec2(40.0f * near, 9.0f * fine);
+    const float wide = ground_octave(bent + 17.0f, 88.0f, 227u, width_m);
+    const float land = ground_octave(xz + vec2(9.0f * near, 120.0f * wide), 330.0f, 229u, width_m);
+    const float grain = ground_octave(other + 1.3f, 1.9f, 233u, width_m);
+    return 0.65f * land + 0.5f * wide + 0.32f * near + 0.22f * fine + 0.18f * grain;
+}
+
+// Factor of the albedo, 1 in the mean; at strength 1 its deviation is 12 % of red, 9 % of green, 8 % of blue: moist
+// ground is dark and green, dry ground pale and yellow.
+SHARED_FN vec3 ground_tone(vec2 xz, float width_m, float strength)
+{
+    const float dry = -strength * ground_moisture(xz, width_m);
+    return max(vec3(1.0f) + dry * vec3(0.60f, 0.46f, 0.41f), vec3(0.25f));
+}
+
+// What the mesh of wide ground does not have of its relief, m: its triangles are metres wide, and no meadow is so even. 0
+// in the mean, deviation 0.02. So the shore of a pond winds, and no line of the mesh is drawn in water.
+SHARED_FN float wide_relief_m(vec2 xz, float width_m)
+{
+    const float steps = ground_octave(xz + 2.3f, 4.1f, 263u, width_m);
+    const float tufts = ground_octave(vec2(0.8f * xz.x - 0.6f * xz.y, 0.6f * xz.x + 0.8f * xz.y), 1.3f, 269u, width_m);
+    return 0.09f * steps + 0.06f * tufts;
+}
+
+SHARED_END
+
+#endif

@@ -1,0 +1,149 @@
+#include "formulas/weather/ground_tone.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formulas/weather/surface_weather.h"
+#include "formulas/weather/weather_maps.h"
+
+namespace petrichor::shared {
+namespace {
+
+struct Spread {
+    double mean = 0.0, deviation = 0.0, least = 1e9, most = -1e9;
+};
+
+template <typename Value>
+Spread spread_of(int count, Value value)
+{
+    Spread s;
+    double squares = 0.0;
+    for (int i = 0; i < count; ++i) {
+        const vec2 at(40000.0f * hash_f(static_cast<uint>(i)) - 20000.0f,
+                      40000.0f * hash_f(static_cast<uint>(i) + 99991u) - 20000.0f);
+        const double v = static_cast<double>(value(at));
+        s.mean += v / count;
+        squares += v * v / count;
+        s.least = std::min(s.least, v);
+        s.most = std::max(s.most, v);
+    }
+    s.deviation = std::sqrt(squares - s.mean * s.mean);
+    return s;
+}
+
+// Ground is as bright as its texture says, here more and there less.
+TEST(GroundTone, VariesAboutWhatTheTextureSays)
+{
+    for (int channel = 0; channel < 3; ++channel) {
+        const Spread s = spread_of(40000, [&](vec2 at) { return ground_tone(at, 0.0f, 1.0f)[channel]; });
+        EXPECT_NEAR(s.mean, 1.0, 0.005) << channel;
+        EXPECT_GT(s.deviation, 0.04) << channel;
+        EXPECT_LT(s.deviation, 0.16) << channel;
+        EXPECT_GT(s.least, 0.5) << channel;
+        EXPECT_LT(s.most, 1.5) << channel;
+    }
+    const Spread moist = spread_of(40000, [](vec2 at) { return ground_moisture(at, 0.0f); });
+    EXPECT_NEAR(moist.mean, 0.0, 0.01);
+    EXPECT_NEAR(moist.deviation, 0.2, 0.06);
+    EXPECT_GT(moist.least, -1.0);
+    EXPECT_LT(moist.most, 1.0);
+}
+
+TEST(GroundTone, IsOffAtNoneAndGoneInAWidePixel)
+{
+    for (float x = -900.0f; x < 900.0f; x += 37.0f) {
+        EXPECT_EQ(ground_tone(vec2(x, 3.0f * x), 0.5f, 0.0f), vec3(1.0f));
+        EXPECT_NEAR(ground_tone(vec2(x, 3.0f * x), 1.0e5f, 1.0f).y, 1.0f, 2e-3f);
+    }
+    // The wider the pixel the less is left.
+    double before = 1.0;
+    for (const float width_m : {0.0f, 5.0f, 20.0f, 80.0f, 300.0f, 1000.0f}) {
+        const double now = spread_of(8000, [&](vec2 at) { return ground_moisture(at, width_m); }).deviation;
+        EXPECT_LT(now, before) << width_m;
+        before = now;
+    }
+}
+
+// Over metres, tens and hundreds of metres: each of these steps finds other ground, and a hand's width does not.
+TEST(GroundTone, VariesOverMetresToHundredsOfMetres)
+{
+    double before = 0.0;
+    for (const float step_m : {0.1f, 4.0f, 20.0f, 60.0f, 250.0f}) {
+        const double differs = spread_of(20000, [&](vec2 at) {
+                                   return ground_moisture(at + vec2(step_m, 0.0f), 0.0f) - ground_moisture(at, 0.0f);
+                               }).deviation;
+        EXPECT_GT(differs, before) << step_m;
+        if (step_m < 1.0f) EXPECT_LT(differs, 0.01);
+        before = differs;
+    }
+    EXPECT_GT(before, 0.2);
+}
+
+// A pond of wide ground ends in a marsh: never wider than the water, the deeper the more of it, whole in the end.
+TEST(MarshCover, RisesWithTheDepthWithinThePond)
+{
+    for (const float stands_m : {-0.05f, 0.0f, 0.04f}) {
+        EXPECT_EQ(marsh_cover(0.0f, stands_m).anywhere, 0.0f);
+        EXPECT_EQ(marsh_cover(-0.3f, stands_m).deep, 0.0f);
+        WaterCover before = marsh_cover(0.0f, stands_m);
+        for (float depth_m = 0.002f; depth_m < 0.3f; depth_m += 0.002f) {
+            const WaterCover now = marsh_cover(depth_m, stands_m);
+            EXPECT_GE(now.anywhere, before.anywhere);
+            EXPECT_GE(now.deep, before.deep);
+            EXPECT_LE(now.anywhere, pond_cover(depth_m, stands_m).anywhere);
+            EXPECT_LE(now.deep, now.anywhere);
+            before = now;
+        }
+        EXPECT_EQ(before.anywhere, 1.0f);
+        EXPECT_EQ(before.deep, 1.0f);
+    }
+    const Spread relief = spread_of(40000, [](vec2 at) { return wide_relief_m(at, 0.0f); });
+    EXPECT_NEAR(relief.mean, 0.0, 0.001);
+    EXPECT_NEAR(relief.deviation, 0.02, 0.006);
+    EXPECT_LT(spread_of(4000, [](vec2 at) { return wide_relief_m(at, 30.0f); }).deviation, 0.2 * relief.deviation);
+}
+
+// One map alone has itself again a step of its tile on; with its second reading no step has.
+TEST(SnowMaskOfTwo, RepeatsNowhere)
+{
+    const float tile_m = 1.0f / 0.09f;
+    const auto map = [](vec2 p) { return snow_texel(p, 1.0f / 512.0f).z; };
+    const auto one = [&](vec2 at) { return map(at * 0.09f); };
+    double sum = 0.0;
+    for (int i = 0; i < 4000; ++i)
+        sum += static_cast<double>(map(vec2(hash_f(static_cast<uint>(i)), hash_f(static_cast<uint>(i) + 7919u))));
+    const float mean = static_cast<float>(sum / 4000.0);
+    const auto both = [&](vec2 at) { return mask_of_two(one(at), map(place_across(at * 0.09f)), mean); };
+    const auto near = [](vec2 at) { return at * 0.01f; };  // 400 m
+    const Spread of_one = spread_of(4000, [&](vec2 at) { return one(near(at)); });
+    const Spread of_both = spread_of(4000, [&](vec2 at) { return both(near(at)); });
+    EXPECT_NEAR(of_both.mean, of_one.mean, 0.02);
+    EXPECT_NEAR(of_both.deviation, of_one.deviation, 0.1 * of_one.deviation);
+    const double apart = std::sqrt(2.0) * of_both.deviation;  // of two places that know nothing of each other
+    for (int tiles = 1; tiles <= 12; ++tiles) {
+        for (const vec2 way : {vec2(1, 0), vec2(0, 1), vec2(1, 1)}) {
+            const vec2 step = way * (tile_m * static_cast<float>(tiles));
+            const auto differs = [&](const auto& mask) {
+                return spread_of(1500, [&](vec2 at) { return mask(near(at) + step) - mask(near(at)); }).deviation;
+            };
+            EXPECT_LT(differs(one), 0.02) << tiles;
+            EXPECT_GT(differs(both), 0.5 * apart) << tiles << " of (" << way.x << ", " << way.y << ")";
+        }
+    }
+}
+
+// Steep wide ground: where snow ends is not one slope but some degrees of them, and as much of it lies as before.
+TEST(SnowHolds, IsNothingInTheMeanAndLessInAWidePixel)
+{
+    const Spread s = spread_of(40000, [](vec2 at) { return snow_holds(at, 0.0f); });
+    EXPECT_NEAR(s.mean, 0.0, 0.005);
+    EXPECT_GT(s.deviation, 0.05);
+    EXPECT_LE(s.most, 0.35);
+    EXPECT_GE(s.least, -0.35);
+    EXPECT_LT(spread_of(4000, [](vec2 at) { return snow_holds(at, 30.0f); }).deviation, 0.2 * s.deviation);
+}
+
+}  // namespace
+}  // namespace petrichor::shared

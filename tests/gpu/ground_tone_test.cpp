@@ -1,0 +1,79 @@
+// Ground so wide that its colour varies over the land.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "formulas/weather/ground_tone.h"
+#include "gpu/upload/wide_ground.h"
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+constexpr int kSize = 64;
+
+Scene field(float width_m)
+{
+    return scene_of({quad({-0.5f * width_m, 0, 0.5f * width_m}, {width_m, 0, 0}, {0, 0, -width_m})},
+                    {plain_material({0.2f, 0.3f, 0.1f})});
+}
+
+Frame from_above(float width_m, float variation)
+{
+    Frame frame;
+    frame.camera = look({0, 50, 0}, {0, 0, 0});
+    frame.camera.orthographic_height_m = width_m;
+    frame.settings.width = frame.settings.height = kSize;
+    frame.settings.samples = 1;
+    frame.settings.aovs = {"base_color", "position"};
+    frame.look.ground_variation = variation;
+    return frame;
+}
+
+TEST(WideGround, IsWhatFacesUpOverAHectareOrTwo)
+{
+    EXPECT_FALSE(wide_ground(field(140.0f))[0]);
+    EXPECT_TRUE(wide_ground(field(142.0f))[0]);
+    // Walls are no ground, however wide; which way triangles turn does not count; many small pieces do.
+    Scene walls = scene_of({quad({0, 0, 0}, {3000, 0, 0}, {0, 300, 0})}, {plain_material({1, 1, 1})});
+    EXPECT_FALSE(wide_ground(walls)[0]);
+    Scene turned = field(200.0f);
+    std::reverse(turned.meshes[0].primitives[0].indices.begin(), turned.meshes[0].primitives[0].indices.end());
+    EXPECT_TRUE(wide_ground(turned)[0]);
+    Scene pieces = field(50.0f);
+    for (int i = 1; i < 9; ++i)
+        pieces.instances.push_back({"piece", 0, glm::translate(glm::mat4(1.0f), {60.0f * static_cast<float>(i), 0, 0})});
+    EXPECT_TRUE(wide_ground(pieces)[0]);
+    Scene damaged = field(200.0f);
+    damaged.meshes[0].primitives[0].positions[0].x = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NO_THROW(wide_ground(damaged));
+}
+
+class GroundToneTest : public GpuTest {};
+
+TEST_F(GroundToneTest, OfWideGroundIsThatOfTheFormulaAndOfSmallGroundNone)
+{
+    for (const float width_m : {400.0f, 100.0f}) {
+        renderer->load(field(width_m), {});
+        const RenderResult plain = renderer->render(from_above(0.9f * width_m, 0.0f));
+        const RenderResult varied = renderer->render(from_above(0.9f * width_m, 1.0f));
+        const float pixel_m = 0.9f * width_m / kSize;
+        float most = 0.0f;
+        for (int y = 4; y < kSize; y += 7) {
+            for (int x = 4; x < kSize; x += 7) {
+                const glm::vec2 at(aov(varied, "position", x, y, 0), aov(varied, "position", x, y, 2));
+                const glm::vec3 tone = width_m > 142.0f ? shared::ground_tone(at, pixel_m, 1.0f) : glm::vec3(1.0f);
+                for (int c = 0; c < 3; ++c) {
+                    const float was = aov(plain, "base_color", x, y, c), is = aov(varied, "base_color", x, y, c);
+                    // The G-buffer keeps roots in 8 bits.
+                    EXPECT_NEAR(is, was * tone[c], 0.006f) << width_m << " m at " << at.x << ", " << at.y;
+                    most = std::max(most, std::abs(is / was - 1.0f));
+                }
+            }
+        }
+        if (width_m > 142.0f) EXPECT_GT(most, 0.08f);
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
