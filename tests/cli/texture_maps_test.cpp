@@ -203,6 +203,36 @@ TEST(TextureTools, InspectSaysWhatTheNameSays)
     EXPECT_TRUE(facts[0]["named"].contains("albedo"));
 }
 
+// The height of ground_alb_ht.png is its alpha; red, which was taken before, is colour.
+TEST(TextureTools, BakeTakesTheChannelThatHoldsTheHeight)
+{
+    const Workplace place("texture_bake_channel");
+    Image height(32, 32, 1, ColorSpace::Data), both(32, 32, 4, ColorSpace::Data);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            height.at(x, y, 0) = (x / 4 + y / 4) % 2 ? 0.8f : 0.2f;
+            both.at(x, y, 0) = static_cast<float>(x) / 31.0f;
+            both.at(x, y, 2) = static_cast<float>(y) / 31.0f;
+            both.at(x, y, 3) = height.at(x, y, 0);
+        }
+    texproc::write_raw(place / "alone.png", texproc::to_raw(height, texproc::PixelType::U8));
+    for (const char* name : {"ground_alb_ht.png", "both.png"})
+        texproc::write_raw(place / name, texproc::to_raw(both, texproc::PixelType::U8));
+    const auto bake = [&](const std::string& map, const std::string& out) {
+        return run({"texture", "bake", "--height", map, "-o", out + "_%d.png"}, place);
+    };
+    EXPECT_EQ(bake("alone.png", "a").err, "");
+    EXPECT_THAT(bake("ground_alb_ht.png", "b").err, HasSubstr("height is ground_alb_ht.png:a"));
+    EXPECT_EQ(bake("both.png:a", "c").err, "");
+    EXPECT_THAT(bake("both.png", "d").err, HasSubstr("coloured"));
+    const std::string known = read_file(place / "a_occlusion.png");
+    EXPECT_EQ(read_file(place / "b_occlusion.png"), known);
+    EXPECT_EQ(read_file(place / "c_occlusion.png"), known);
+    EXPECT_NE(read_file(place / "d_occlusion.png"), known);
+    EXPECT_EQ(bake("alone.png:b", "e").exit_code, 2);
+    EXPECT_EQ(run({"texture", "normal", "both.png:a", "--from-height", "-o", "n.png"}, place).exit_code, 0);
+}
+
 TEST(TextureTools, OddShapesAreFine)
 {
     const Workplace place("texture_odd");
