@@ -64,25 +64,14 @@ Image read_numbers(const std::string& path, ColorSpace space = ColorSpace::Data)
     return checked(texproc::read_image(path, {.space = space}), path);
 }
 
-// Whether the first three channels are one grey, but for what JPEG makes of it.
-bool is_grey(const Image& image)
-{
-    constexpr double kNoise = 0.02;
-    double apart = 0.0;
-    const std::size_t step = static_cast<std::size_t>(image.channels);
-    for (std::size_t i = 0; i + 2 < image.pixels.size(); i += step)
-        apart += static_cast<double>(std::abs(image.pixels[i] - image.pixels[i + 1]) +
-                                     std::abs(image.pixels[i] - image.pixels[i + 2]));
-    return apart <= kNoise * static_cast<double>(image.pixels.size() / step);
-}
-
 // A map of one number a texel: FILE, or FILE:a. Without a channel the name may tell it (`wall_alb_ht` holds
 // the height in alpha); else it is the first, which is said where the others differ.
 Image read_scalar(const std::string& text, const std::string& role)
 {
     MapFile file = parse_map_file(text);
     if (file.channel >= 0) return checked(texproc::to_image(read_map(text, {}), ColorSpace::Data), text);
-    Image image = read_numbers(text);
+    const texproc::RawImage raw = read_map(text, {});
+    Image image = checked(texproc::to_image(raw, ColorSpace::Data), text);
     if (image.channels < 2) return image;
     const auto roles = texproc::maps_named(file.path.stem().string()).roles;
     const auto named = roles.find(role);
@@ -90,9 +79,8 @@ Image read_scalar(const std::string& text, const std::string& role)
     if (std::string("rgba").find(channel) >= static_cast<std::size_t>(image.channels)) channel.clear();
     if (!channel.empty()) {
         std::cerr << "note: " << role << " is " << text << ":" << channel << ", as the name says\n";
-    } else if (image.channels > 2 && !is_grey(image)) {
-        std::cerr << "note: " << text << " is coloured, its red is taken for the " << role << " ("
-                  << text << ":g takes green)\n";
+    } else {
+        tell_red_taken(text, raw, role);
     }
     const std::size_t take = channel.empty() ? 0 : std::string("rgba").find(channel);
     const std::size_t step = static_cast<std::size_t>(image.channels);
@@ -153,6 +141,9 @@ void run_mips(MipsArguments& a)
     Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
     if (a.options.normals && image.channels == 3 && texproc::drops_z(a.format))
         texproc::renormalize(image, texproc::kUnitRounding);
+    const bool floats = std::filesystem::path(a.out).extension() == ".exr" || a.format.ends_with('f') ||
+                        a.format.starts_with("bc6h") || (a.format.empty() && a.bits == 16 && a.color && texproc::holds_mip_chain(a.out));
+    if (!floats) tell_cut_numbers(image);
     const std::vector<Image> chain = texproc::mip_chain(image, a.options);
     write_mips(a, chain);
     std::cout << chain.size() << " levels\n";

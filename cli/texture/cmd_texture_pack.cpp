@@ -118,7 +118,13 @@ void run(const Arguments& a)
     std::vector<texproc::RawImage> images = read_maps(texts, a.reading);
     std::map<std::string, texproc::RawImage> maps;
     std::size_t next = 0;
-    for (const auto& [role, file] : files) maps.emplace(role, std::move(images[next++]));
+    for (const auto& [role, file] : files) {
+        // Where a preset takes one number of a role it takes the first.
+        const bool color = role == "albedo" || role == "specular" || role == "emission" || role == "normal" ||
+                           role == "detail" || role == "flow";
+        if (!color && a.files.contains(role)) tell_red_taken(file, images[next], role);
+        maps.emplace(role, std::move(images[next++]));
+    }
     texproc::RawImage packed = texproc::pack(preset, maps, a.bits);
     maps.clear();  // writing needs memory of its own
     write_packed(a, preset, std::move(packed));

@@ -19,6 +19,7 @@ namespace petrichor::cli {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using namespace testing_program;
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -231,6 +232,44 @@ TEST(TextureTools, BakeTakesTheChannelThatHoldsTheHeight)
     EXPECT_NE(read_file(place / "d_occlusion.png"), known);
     EXPECT_EQ(bake("alone.png:b", "e").exit_code, 2);
     EXPECT_EQ(run({"texture", "normal", "both.png:a", "--from-height", "-o", "n.png"}, place).exit_code, 0);
+}
+
+// What is not what it was named for is said, where it can be seen.
+TEST(TextureTools, ColourInThePlaceOfDataIsSaid)
+{
+    const Workplace place("texture_colour_said");
+    Image color(16, 16, 3, ColorSpace::Data), light(16, 16, 1, ColorSpace::Data, 3.0f);
+    Image normal(16, 16, 3, ColorSpace::Data, 0.5f), grey(16, 16, 3, ColorSpace::Data, 0.4f);
+    for (std::size_t i = 0; i < color.pixels.size(); ++i) {
+        color.pixels[i] = i % 3 == 2 ? 0.2f : 0.6f;
+        if (i % 3 == 2) normal.pixels[i] = 1.0f;
+    }
+    for (const auto& [name, image] : {std::pair{"paint.png", &color}, {"up.png", &normal}, {"grey.png", &grey}})
+        texproc::write_raw(place / name, texproc::to_raw(*image, texproc::PixelType::U8));
+    texproc::write_raw(place / "light.exr", texproc::to_raw(light, texproc::PixelType::F32));
+    const auto said = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "texture");
+        const Outcome outcome = run(arguments, place);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome.err;
+    };
+    const std::vector<std::string> to{"--rule", "median", "-o", "o_%d.png"};
+    const auto prefilter = [&](const std::string& n, const std::string& r) {
+        std::vector<std::string> all{"prefilter", "--normal", n, "--roughness", r};
+        all.insert(all.end(), to.begin(), to.end());
+        return said(all);
+    };
+    EXPECT_THAT(prefilter("paint.png", "grey.png"), HasSubstr("hardly a normal map"));
+    EXPECT_THAT(prefilter("up.png", "paint.png"), HasSubstr("its red is taken for the roughness"));
+    EXPECT_THAT(prefilter("up.png", "grey.png"), Not(HasSubstr("note")));
+    EXPECT_THAT(prefilter("up.png", "paint.png:g"), Not(HasSubstr("note")));
+    const std::vector<std::string> pack{"pack", "--preset", "gltf-orm", "-o", "p.png", "--metallic", "grey.png", "--roughness"};
+    auto red = pack, green = pack;
+    red.push_back("paint.png"), green.push_back("paint.png:g");
+    EXPECT_THAT(said(red), HasSubstr("its red is taken for the roughness"));
+    EXPECT_EQ(said(green), "");
+    EXPECT_THAT(said({"mips", "light.exr", "-o", "m_%d.png"}), HasSubstr("256 of 256 numbers are above 1"));
+    EXPECT_EQ(said({"mips", "light.exr", "-o", "m.exr"}), "");
 }
 
 TEST(TextureTools, OddShapesAreFine)
