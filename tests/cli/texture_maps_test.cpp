@@ -268,6 +268,11 @@ TEST(TextureTools, ColourInThePlaceOfDataIsSaid)
     red.push_back("paint.png"), green.push_back("paint.png:g");
     EXPECT_THAT(said(red), HasSubstr("its red is taken for the roughness"));
     EXPECT_EQ(said(green), "");
+    const std::string by_channel = read_file(place / "p.png");
+    fs::copy(place / "paint.png", place / "wall_arm.png");
+    green.back() = "wall_arm.png";
+    EXPECT_THAT(said(green), HasSubstr("roughness is wall_arm.png:g, as the name says"));
+    EXPECT_EQ(read_file(place / "p.png"), by_channel);
     EXPECT_THAT(said({"mips", "light.exr", "-o", "m_%d.png"}), HasSubstr("256 of 256 numbers are above 1"));
     EXPECT_EQ(said({"mips", "light.exr", "-o", "m.exr"}), "");
 }
