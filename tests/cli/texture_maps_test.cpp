@@ -287,7 +287,10 @@ TEST(TextureTools, OddShapesAreFine)
               0);
     EXPECT_TRUE(fs::exists(place / "b_puddle.png"));
     EXPECT_EQ(run({"texture", "inspect", "line.png"}, place).exit_code, 0);
-    EXPECT_EQ(run({"texture", "compare", "line.png", "line.png"}, place).exit_code, 0);
+    const Outcome same = run({"texture", "compare", "line.png", "line.png"}, place);
+    EXPECT_EQ(same.exit_code, 0);
+    EXPECT_THAT(same.out, HasSubstr("psnr     equal"));
+    EXPECT_THAT(same.out, Not(HasSubstr("equal dB")));
     // Zero normals point up.
     EXPECT_EQ(run({"texture", "normal", "zero.png", "--renormalize", "--bits", "8", "-o", "up.png"},
                   place)
