@@ -114,6 +114,11 @@ std::string number(double value)
     return std::isinf(value) ? "equal" : text;
 }
 
+std::string decibels(double value)
+{
+    return number(value) + (std::isinf(value) ? "" : " dB");
+}
+
 [[noreturn]] void refuse_difference(const Arguments& a)
 {
     throw Error("texture compare: " + a.a + " and " + a.b + " differ by more than was allowed",
@@ -147,7 +152,7 @@ void run(const Arguments& a)
             ? std::printf("%s\n", nlohmann::ordered_json{{"psnr_db", psnr_json}}
                                       .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
                                       .c_str())
-            : std::printf("psnr     %s dB\n", number(db.back()).c_str());
+            : std::printf("psnr     %s\n", decibels(db.back()).c_str());
         if (a.fail_psnr >= 0.0 && db.back() < a.fail_psnr) refuse_difference(a);
         return;
     }
@@ -165,7 +170,7 @@ void run(const Arguments& a)
     if (!a.json) {
         std::printf("%s, %d x %d, %d channels\n", normals ? "normal maps" : "pictures", ia.width,
                     ia.height, ia.channels);
-        std::printf("psnr     %s dB", number(db.back()).c_str());
+        std::printf("psnr     %s", decibels(db.back()).c_str());
         for (std::size_t c = 0; db.size() > 2 && c + 1 < db.size(); ++c)
             std::printf("%s%s", c ? ", " : "   by channel ", number(db[c]).c_str());
         std::printf("\nssim     %.5f\nlargest  %.5f\n", similarity, largest);

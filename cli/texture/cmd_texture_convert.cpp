@@ -229,22 +229,7 @@ void tell_cuts(const texproc::RawImage& raw, const std::string& format, texproc:
         kept = to.block ? format.starts_with("bc6h") : is_float(to.type);
     }
     if (!is_float(raw.type) || kept) return;
-    const Image values = texproc::to_image(raw, ColorSpace::Data);
-    constexpr float kHalfCode = 0.5f / 255.0f;  // less is rounding
-    std::size_t above = 0, below = 0, none = 0;
-    for (const float v : values.pixels) {
-        above += v > 1.0f + kHalfCode;
-        below += v < -kHalfCode;
-        none += std::isnan(v);
-    }
-    const auto tell = [&](std::size_t count, const char* what) {
-        if (count > 0)
-            std::cerr << "note: " << count << " of " << values.pixels.size() << " numbers " << what
-                      << " (floats keep them: .exr, or --format 16f in .dds and .ktx2)\n";
-    };
-    tell(above, "are above 1 and become 1");
-    tell(below, "are below 0 and become 0");
-    tell(none, "are not numbers and become 0");
+    tell_cut_numbers(texproc::to_image(raw, ColorSpace::Data));
 }
 
 void write_slopes(const Arguments& a, const texproc::RawImage& raw)

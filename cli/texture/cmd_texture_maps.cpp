@@ -17,6 +17,7 @@
 #include "texproc/filter/fitted_depth.h"
 #include "texproc/filter/mips.h"
 #include "texproc/filter/normal.h"
+#include "texproc/material/material_names.h"
 #include "texproc/material/normal_channels.h"
 #include "texproc/material/pack.h"
 
@@ -48,15 +49,44 @@ void add_edges(CLI::App& app, EdgeNames& edges, const std::string& when)
 }
 
 // Numbers that are none would spread through every filter.
-Image read_numbers(const std::string& path, ColorSpace space = ColorSpace::Data)
+Image checked(Image image, const std::string& path)
 {
-    Image image = texproc::read_image(path, {.space = space});
     for (const float v : image.pixels) {
         if (std::isfinite(v)) continue;
         throw Error("texture: " + path + " holds values that are not numbers",
                     "Repair the NaN or infinite pixels first.");
     }
     return image;
+}
+
+Image read_numbers(const std::string& path, ColorSpace space = ColorSpace::Data)
+{
+    return checked(texproc::read_image(path, {.space = space}), path);
+}
+
+// A map of one number a texel: FILE, or FILE:a. Without a channel the name may tell it (`wall_alb_ht` holds
+// the height in alpha); else it is the first, which is said where the others differ.
+Image read_scalar(const std::string& text, const std::string& role)
+{
+    MapFile file = parse_map_file(text);
+    if (file.channel >= 0) return checked(texproc::to_image(read_map(text, {}), ColorSpace::Data), text);
+    const texproc::RawImage raw = read_map(text, {});
+    Image image = checked(texproc::to_image(raw, ColorSpace::Data), text);
+    if (image.channels < 2) return image;
+    const auto roles = texproc::maps_named(file.path.stem().string()).roles;
+    const auto named = roles.find(role);
+    std::string channel = named != roles.end() && named->second.size() == 1 ? named->second : "";
+    if (std::string("rgba").find(channel) >= static_cast<std::size_t>(image.channels)) channel.clear();
+    if (!channel.empty()) {
+        std::cerr << "note: " << role << " is " << text << ":" << channel << ", as the name says\n";
+    } else {
+        tell_red_taken(text, raw, role);
+    }
+    const std::size_t take = channel.empty() ? 0 : std::string("rgba").find(channel);
+    const std::size_t step = static_cast<std::size_t>(image.channels);
+    Image one(image.width, image.height, 1, ColorSpace::Data);
+    for (std::size_t i = 0; i < one.pixels.size(); ++i) one.pixels[i] = image.pixels[i * step + take];
+    return one;
 }
 
 void check_same_size(const std::string& name_a, const Image& a, const std::string& name_b,
@@ -111,6 +141,9 @@ void run_mips(MipsArguments& a)
     Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
     if (a.options.normals && image.channels == 3 && texproc::drops_z(a.format))
         texproc::renormalize(image, texproc::kUnitRounding);
+    const bool floats = std::filesystem::path(a.out).extension() == ".exr" || a.format.ends_with('f') ||
+                        a.format.starts_with("bc6h") || (a.format.empty() && a.bits == 16 && a.color && texproc::holds_mip_chain(a.out));
+    if (!floats) tell_cut_numbers(image);
     const std::vector<Image> chain = texproc::mip_chain(image, a.options);
     write_mips(a, chain);
     std::cout << chain.size() << " levels\n";
@@ -126,14 +159,14 @@ struct NormalArguments {
 
 void run_normal(const NormalArguments& a)
 {
-    const Image image = read_numbers(a.in);
+    const Image image = a.from_height ? read_scalar(a.in, "height") : read_numbers(a.in);
     const texproc::Edge edge_u = kEdges.at(a.edges.u), edge_v = kEdges.at(a.edges.v);
     Image normal = a.from_height
                        ? texproc::normal_from_height(
                              image, {.depth = a.depth, .edge_u = edge_u, .edge_v = edge_v})
                        : texproc::from_layout(image, texproc::normal_layout(a.from));
     if (a.detect) {
-        const Image height = a.height.empty() ? Image() : read_numbers(a.height);
+        const Image height = a.height.empty() ? Image() : read_scalar(a.height, "height");
         if (!height.empty()) check_same_size(a.in, normal, a.height, height);
         const texproc::GreenDirection green =
             height.empty() ? texproc::detect_green(normal) : texproc::detect_green(normal, height);
@@ -231,13 +264,13 @@ void run_bake(BakeArguments& a)
                              writing);
         return;
     }
-    const Image height = read_numbers(a.height);
+    const Image height = read_scalar(a.height, "height");
     // All inputs are read before the first output is written.
-    const Image roughness = a.roughness.empty() ? Image() : read_numbers(a.roughness);
-    const Image metallic = a.metallic.empty() ? Image() : read_numbers(a.metallic);
+    const Image roughness = a.roughness.empty() ? Image() : read_scalar(a.roughness, "roughness");
+    const Image metallic = a.metallic.empty() ? Image() : read_scalar(a.metallic, "metallic");
     if (!roughness.empty() && !metallic.empty())
         check_same_size(a.roughness, roughness, a.metallic, metallic);
-    const Image truth = a.occlusion.empty() ? Image() : read_numbers(a.occlusion);
+    const Image truth = a.occlusion.empty() ? Image() : read_scalar(a.occlusion, "occlusion");
     if (!truth.empty()) check_same_size(a.height, height, a.occlusion, truth);
     if (!a.normal.empty()) fit_depth(a, height, read_numbers(a.normal));
     const Image occlusion = texproc::ambient_occlusion(height, a.options);
@@ -349,14 +382,14 @@ void add_texture_maps(CLI::App& texture)
         CLI::App* app = texture.add_subcommand(
             "bake", "occlusion, cavity, curvature, puddles, cracks, flow from a height map");
         app->add_option("--height", a->height,
-                        "height map, white is high; without it: ripple, snow mask, snow bump");
+                        "height map, white is high, FILE or FILE:a; without it: ripple, snow mask, snow bump");
         app->add_option("--normal", a->normal,
                         "normals of the same surface: the depth is fitted to them");
         app->add_option("--width-m", a->width_m, "width in metres: the fitted depth is told so too")
             ->check(CLI::PositiveNumber);
         app->add_option("--occlusion", a->occlusion,
                         "one that is known: says how the baked one correlates with it");
-        app->add_option("--roughness", a->roughness, "also makes a porosity map");
+        app->add_option("--roughness", a->roughness, "also makes a porosity map; FILE or FILE:g");
         app->add_option("--metallic", a->metallic, "metals are not porous");
         app->add_option("-o,--out", a->out, "'wall_%d.png': %d becomes the name of the map")
             ->required();

@@ -11,6 +11,8 @@
 #include "cli/texture/maps/pack_file.h"
 #include "texproc/codecs/files/texture.h"
 #include "texproc/filter/mips.h"
+#include "texproc/material/material_names.h"
+#include "texproc/material/pack.h"
 
 namespace petrichor::cli {
 
@@ -101,6 +103,17 @@ void write_packed(const Arguments& a, const texproc::PackPreset& preset, texproc
     texproc::write_mip_chain(a.out, levels, options);
 }
 
+// Of `wall_arm.png` the roughness is green; -1 where a channel was chosen or the name tells none.
+int channel_by_name(const std::string& text, const std::string& role)
+{
+    const MapFile file = parse_map_file(text);
+    if (file.channel >= 0) return -1;
+    const auto roles = texproc::maps_named(file.path.stem().string()).roles;
+    const auto named = roles.find(role);
+    if (named == roles.end() || named->second.size() != 1) return -1;
+    return static_cast<int>(std::string("rgba").find(named->second));
+}
+
 void run(const Arguments& a)
 {
     if (a.list) {
@@ -118,7 +131,19 @@ void run(const Arguments& a)
     std::vector<texproc::RawImage> images = read_maps(texts, a.reading);
     std::map<std::string, texproc::RawImage> maps;
     std::size_t next = 0;
-    for (const auto& [role, file] : files) maps.emplace(role, std::move(images[next++]));
+    for (const auto& [role, file] : files) {
+        // Where a preset takes one number of a role it takes the first.
+        const bool color = role == "albedo" || role == "specular" || role == "emission" || role == "normal" ||
+                           role == "detail" || role == "flow";
+        texproc::RawImage& image = images[next];
+        if (const int named = channel_by_name(file, role); !color && named >= 0 && named < image.channels && image.channels > 2) {
+            std::cerr << "note: " << role << " is " << file << ":" << "rgba"[named] << ", as the name says\n";
+            image = texproc::channel_of(image, named);
+        } else if (!color && a.files.contains(role)) {
+            tell_red_taken(file, image, role);
+        }
+        maps.emplace(role, std::move(images[next++]));
+    }
     texproc::RawImage packed = texproc::pack(preset, maps, a.bits);
     maps.clear();  // writing needs memory of its own
     write_packed(a, preset, std::move(packed));

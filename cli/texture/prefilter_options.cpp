@@ -57,6 +57,9 @@ PrefilterMaps read_prefilter_maps(PrefilterInput& input)
     maps.normal = normal.get();
     // A grey map under the name of a packed one has its values in its only channel.
     if (map.channel < 0 && maps.map.channels <= 2) o.channel = 0;
+    if (map.channel < 0 && o.channel == 0)
+        tell_red_taken(map.path.string(), maps.map, smooth ? "smoothness" : "roughness");
+    if (input.layout == "rgb") tell_if_no_normals(input.normal, maps.normal);
     return maps;
 }
 

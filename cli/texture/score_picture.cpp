@@ -65,12 +65,13 @@ public:
             const std::string light = pictures_.lights[static_cast<std::size_t>(which.light)].name;
             int x = kGap;
             const auto place = [&](const std::string& words, const texproc::Prefiltered* chain) {
-                sheet_.text(x, y_ + 16, words);
+                sheet_.text(x, y_ + 32, words);
                 sheet_.place(bench.picture(c, 0, chain), x, y_ + kLine - kGap);
                 x += width() + kGap;
             };
-            place(material + ", " + light + (which.metal ? ", metal" : "") + ": plain mips",
-                  &plain);
+            // A line of its own: it may be longer than a picture is wide.
+            sheet_.text(kGap, y_ + 14, material + ", " + light + (which.metal ? ", metal" : ""));
+            place("plain mips", &plain);
             for (std::size_t i = 0; i < variants.size(); ++i) place(variants[i].name, &chains[i]);
             place("truth", nullptr);
             y_ += height() + kLine;
@@ -84,7 +85,7 @@ public:
     }
 
 private:
-    static constexpr int kGap = 8, kLine = 32;
+    static constexpr int kGap = 8, kLine = 48;
     int width() const
     {
         int most = 0;

@@ -19,6 +19,7 @@ namespace petrichor::cli {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using namespace testing_program;
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -203,6 +204,79 @@ TEST(TextureTools, InspectSaysWhatTheNameSays)
     EXPECT_TRUE(facts[0]["named"].contains("albedo"));
 }
 
+// The height of ground_alb_ht.png is its alpha; red, which was taken before, is colour.
+TEST(TextureTools, BakeTakesTheChannelThatHoldsTheHeight)
+{
+    const Workplace place("texture_bake_channel");
+    Image height(32, 32, 1, ColorSpace::Data), both(32, 32, 4, ColorSpace::Data);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            height.at(x, y, 0) = (x / 4 + y / 4) % 2 ? 0.8f : 0.2f;
+            both.at(x, y, 0) = static_cast<float>(x) / 31.0f;
+            both.at(x, y, 2) = static_cast<float>(y) / 31.0f;
+            both.at(x, y, 3) = height.at(x, y, 0);
+        }
+    texproc::write_raw(place / "alone.png", texproc::to_raw(height, texproc::PixelType::U8));
+    for (const char* name : {"ground_alb_ht.png", "both.png"})
+        texproc::write_raw(place / name, texproc::to_raw(both, texproc::PixelType::U8));
+    const auto bake = [&](const std::string& map, const std::string& out) {
+        return run({"texture", "bake", "--height", map, "-o", out + "_%d.png"}, place);
+    };
+    EXPECT_EQ(bake("alone.png", "a").err, "");
+    EXPECT_THAT(bake("ground_alb_ht.png", "b").err, HasSubstr("height is ground_alb_ht.png:a"));
+    EXPECT_EQ(bake("both.png:a", "c").err, "");
+    EXPECT_THAT(bake("both.png", "d").err, HasSubstr("coloured"));
+    const std::string known = read_file(place / "a_occlusion.png");
+    EXPECT_EQ(read_file(place / "b_occlusion.png"), known);
+    EXPECT_EQ(read_file(place / "c_occlusion.png"), known);
+    EXPECT_NE(read_file(place / "d_occlusion.png"), known);
+    EXPECT_EQ(bake("alone.png:b", "e").exit_code, 2);
+    EXPECT_EQ(run({"texture", "normal", "both.png:a", "--from-height", "-o", "n.png"}, place).exit_code, 0);
+}
+
+// What is not what it was named for is said, where it can be seen.
+TEST(TextureTools, ColourInThePlaceOfDataIsSaid)
+{
+    const Workplace place("texture_colour_said");
+    Image color(16, 16, 3, ColorSpace::Data), light(16, 16, 1, ColorSpace::Data, 3.0f);
+    Image normal(16, 16, 3, ColorSpace::Data, 0.5f), grey(16, 16, 3, ColorSpace::Data, 0.4f);
+    for (std::size_t i = 0; i < color.pixels.size(); ++i) {
+        color.pixels[i] = i % 3 == 2 ? 0.2f : 0.6f;
+        if (i % 3 == 2) normal.pixels[i] = 1.0f;
+    }
+    for (const auto& [name, image] : {std::pair{"paint.png", &color}, {"up.png", &normal}, {"grey.png", &grey}})
+        texproc::write_raw(place / name, texproc::to_raw(*image, texproc::PixelType::U8));
+    texproc::write_raw(place / "light.exr", texproc::to_raw(light, texproc::PixelType::F32));
+    const auto said = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "texture");
+        const Outcome outcome = run(arguments, place);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome.err;
+    };
+    const std::vector<std::string> to{"--rule", "median", "-o", "o_%d.png"};
+    const auto prefilter = [&](const std::string& n, const std::string& r) {
+        std::vector<std::string> all{"prefilter", "--normal", n, "--roughness", r};
+        all.insert(all.end(), to.begin(), to.end());
+        return said(all);
+    };
+    EXPECT_THAT(prefilter("paint.png", "grey.png"), HasSubstr("hardly a normal map"));
+    EXPECT_THAT(prefilter("up.png", "paint.png"), HasSubstr("its red is taken for the roughness"));
+    EXPECT_THAT(prefilter("up.png", "grey.png"), Not(HasSubstr("note")));
+    EXPECT_THAT(prefilter("up.png", "paint.png:g"), Not(HasSubstr("note")));
+    const std::vector<std::string> pack{"pack", "--preset", "gltf-orm", "-o", "p.png", "--metallic", "grey.png", "--roughness"};
+    auto red = pack, green = pack;
+    red.push_back("paint.png"), green.push_back("paint.png:g");
+    EXPECT_THAT(said(red), HasSubstr("its red is taken for the roughness"));
+    EXPECT_EQ(said(green), "");
+    const std::string by_channel = read_file(place / "p.png");
+    fs::copy(place / "paint.png", place / "wall_arm.png");
+    green.back() = "wall_arm.png";
+    EXPECT_THAT(said(green), HasSubstr("roughness is wall_arm.png:g, as the name says"));
+    EXPECT_EQ(read_file(place / "p.png"), by_channel);
+    EXPECT_THAT(said({"mips", "light.exr", "-o", "m_%d.png"}), HasSubstr("256 of 256 numbers are above 1"));
+    EXPECT_EQ(said({"mips", "light.exr", "-o", "m.exr"}), "");
+}
+
 TEST(TextureTools, OddShapesAreFine)
 {
     const Workplace place("texture_odd");
@@ -213,7 +287,10 @@ TEST(TextureTools, OddShapesAreFine)
               0);
     EXPECT_TRUE(fs::exists(place / "b_puddle.png"));
     EXPECT_EQ(run({"texture", "inspect", "line.png"}, place).exit_code, 0);
-    EXPECT_EQ(run({"texture", "compare", "line.png", "line.png"}, place).exit_code, 0);
+    const Outcome same = run({"texture", "compare", "line.png", "line.png"}, place);
+    EXPECT_EQ(same.exit_code, 0);
+    EXPECT_THAT(same.out, HasSubstr("psnr     equal"));
+    EXPECT_THAT(same.out, Not(HasSubstr("equal dB")));
     // Zero normals point up.
     EXPECT_EQ(run({"texture", "normal", "zero.png", "--renormalize", "--bits", "8", "-o", "up.png"},
                   place)

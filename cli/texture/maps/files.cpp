@@ -1,7 +1,10 @@
 #include "cli/texture/maps/files.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <future>
+#include <iostream>
 
 #include "base/error.h"
 #include "texproc/material/pack.h"
@@ -33,6 +36,75 @@ texproc::RawImage read_map(const std::string& text, const texproc::ReadOptions& 
                         "' out.");
     }
     return texproc::channel_of(image, file.channel);
+}
+
+namespace {
+
+// Some thousand texels of an image, in a row.
+Image sample_of(const texproc::RawImage& image)
+{
+    constexpr std::size_t kLooks = 4096;
+    const std::size_t texels = image.values() / static_cast<std::size_t>(image.channels);
+    const std::size_t texel_bytes = image.bytes.size() / texels;
+    const std::size_t looks = std::min(kLooks, texels);
+    texproc::RawImage seen{static_cast<int>(looks), 1, image.channels, image.type, {}, {}};
+    for (std::size_t i = 0; i < looks; ++i) {
+        const std::byte* texel = image.bytes.data() + i * texels / looks * texel_bytes;
+        seen.bytes.insert(seen.bytes.end(), texel, texel + texel_bytes);
+    }
+    return texproc::to_image(seen, ColorSpace::Data);
+}
+
+}  // namespace
+
+bool is_colored(const texproc::RawImage& image)
+{
+    if (image.channels < 3) return false;
+    constexpr double kNoise = 0.02;
+    const Image seen = sample_of(image);
+    double apart = 0.0;
+    for (std::size_t i = 0; i < seen.pixels.size(); i += static_cast<std::size_t>(image.channels))
+        apart += static_cast<double>(std::abs(seen.pixels[i] - seen.pixels[i + 1]) +
+                                     std::abs(seen.pixels[i] - seen.pixels[i + 2]));
+    return apart > kNoise * static_cast<double>(seen.width);
+}
+
+void tell_if_no_normals(const std::string& text, const texproc::RawImage& image)
+{
+    if (image.channels < 3) return;
+    const Image seen = sample_of(image);
+    int down = 0;
+    for (std::size_t i = 0; i < seen.pixels.size(); i += static_cast<std::size_t>(image.channels))
+        down += seen.pixels[i + 2] < 0.5f;
+    if (4 * down > seen.width)
+        std::cerr << "note: " << text << " is hardly a normal map: " << 100 * down / seen.width
+                  << " % of its normals point into the surface\n";
+}
+
+void tell_red_taken(const std::string& text, const texproc::RawImage& image, const std::string& role)
+{
+    if (parse_map_file(text).channel >= 0 || !is_colored(image)) return;
+    std::cerr << "note: " << text << " is coloured, its red is taken for the " << role << " (" << text
+              << ":g takes green)\n";
+}
+
+void tell_cut_numbers(const Image& values)
+{
+    constexpr float kHalfCode = 0.5f / 255.0f;  // less is rounding
+    std::size_t above = 0, below = 0, none = 0;
+    for (const float v : values.pixels) {
+        above += v > 1.0f + kHalfCode;
+        below += v < -kHalfCode;
+        none += std::isnan(v);
+    }
+    const auto tell = [&](std::size_t count, const char* what) {
+        if (count > 0)
+            std::cerr << "note: " << count << " of " << values.pixels.size() << " numbers " << what
+                      << " (floats keep them: .exr, or --format rgba16f in .dds and .ktx2)\n";
+    };
+    tell(above, "are above 1 and become 1");
+    tell(below, "are below 0 and become 0");
+    tell(none, "are not numbers and become 0");
 }
 
 std::vector<texproc::RawImage> read_maps(const std::vector<std::string>& texts,

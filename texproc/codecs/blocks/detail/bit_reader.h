@@ -32,6 +32,8 @@ public:
         high_ >>= bits;
         return value;
     }
+    /// The next 64 bits; behind the block zeros.
+    std::uint64_t rest() const { return low_; }
 
 private:
     std::uint64_t low_ = 0, high_ = 0;
