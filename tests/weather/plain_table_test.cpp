@@ -189,6 +189,13 @@ TEST(PlainTable, TitlesAndUnitsAroundTheNames)
     EXPECT_EQ(toa5.table[Field::Rain][5], want.table[Field::Precip][5]);
 }
 
+TEST(PlainTable, NamesWithoutRowsSaySo)
+{
+    for (const char* text : {"time,air_temp_c,precip_mm\n",
+                             "time,air_temp_c,precip_mm\n# nothing yet\n\n", "time;air_temp_c\n"})
+        EXPECT_THAT(refusal(text), HasSubstr("0 good rows")) << text;
+}
+
 TEST(PlainTable, NamesAsProgramsWriteThem)
 {
     expect_same(text_of({"Date/Time", "Global Radiation (W/m\u00B2)", "Longwave (W/m2)",

@@ -240,6 +240,9 @@ void find_date_order(Header& h, const PlainTable& table, RowCollector& rows,
     }
     h.times.order = options.date_order;
     if (options.date_order != DateOrder::Unknown) return;
+    const bool any =
+        !orders.either().empty() || !orders.day_first().empty() || !orders.month_first().empty();
+    if (!any) return;  // no rows: that is said later
     constexpr const char* kFix =
         "Write them as 2024-02-01, or say --date-order dmy or mdy (in a scenario [weather] "
         "date_order)";
