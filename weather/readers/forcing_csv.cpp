@@ -114,7 +114,7 @@ void read_place(std::string_view text, const PlainTable& table, RowCollector& ro
         while (!comment && !value.empty() &&
                std::string_view(",;\t ").find(value.back()) != value.npos)
             value.remove_suffix(1);
-        const auto number = to_number(value);
+        const auto number = comment ? to_number(value) : cell_number(value, table);
         if (comment && key == "petrichor") rows.report().format = shown(value);
         if (key == "name") site.name = shown(value);
         if (comment && key == "note")
