@@ -57,6 +57,21 @@ Window window_of(const PhysicalRun& run, std::int64_t origin_us, std::int64_t be
     return w;
 }
 
+// What was asked for beyond the ends of the weather is not there; the table says so.
+void note_ends(SimulationTable& table, const PhysicalRun& run, std::int64_t origin_us,
+               std::int64_t begin_us, std::int64_t end_us)
+{
+    const auto asked_us = [&](double s) {
+        return origin_us + static_cast<std::int64_t>(std::llround(s * 1e6));
+    };
+    if (run.from_s && asked_us(*run.from_s) < begin_us)
+        table.notes.push_back("--from is before the weather, which begins at " +
+                              weather::iso_from_us(begin_us));
+    if (run.to_s && asked_us(*run.to_s) > end_us)
+        table.notes.push_back("--to is after the weather, which ends at " +
+                              weather::iso_from_us(end_us));
+}
+
 SimulationTable headed_table(const weather::ReadResult& read, const std::string& name,
                              const std::string& mode, const PhysicalRun& run)
 {
@@ -274,11 +289,13 @@ SimulationTable run_physical(const weather::ReadResult& read, const std::string&
     const weather::PhysicalTimeline timeline = timeline_of(read, run, params);
     const std::int64_t origin = read.table.time_us.front(), end_us = timeline.end_us();
     const Window window = window_of(run, origin, timeline.begin_us(), end_us, run.every_s);
+    note_ends(table, run, origin, timeline.begin_us(), end_us);
     fill_rows(table, read, params, timeline, window);
     if (run.every_s > 3600.0)
         table.notes.push_back(
             "rows are states at their times, with the rates and fluxes of the hour: what falls or "
-            "shines between two of them is in the model and in no row; leave --every out to see it");
+            "shines between two of them is in the model and in no row; leave --every out to see "
+            "it");
     table.panels = physical_panels();
     if (params.surface.traffic_heat_w_m2 > 0.0 || !params.events.empty())
         for (PlotPanel& panel : road_panels()) table.panels.push_back(std::move(panel));

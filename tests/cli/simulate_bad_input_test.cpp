@@ -30,6 +30,7 @@ struct Format {
     std::string head;
     std::function<std::string(const Row&)> row;
     bool sorts = false;  // reports may come in any order
+    const char* twice = "for the same ";  // what it says then of a row that stands there again
 };
 void PrintTo(const Format& f, std::ostream* out)
 {
@@ -66,7 +67,8 @@ const std::vector<Format>& formats()
         {"csv", "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm\n",
          [](const Row& r) {
              return printed("2020-01-%02dT%02d:00Z,%s,80,2,0.1\n", r.day, r.hour, r.temp_c.c_str());
-         }},
+         },
+         true, "in the file again, letter by letter"},
         {"epw",
          "LOCATION,Test,X,Y,TMY3,1,45.0,8.0,1.0,200\nDESIGN CONDITIONS,0\nTYPICAL/EXTREME "
          "PERIODS,0\nGROUND TEMPERATURES,0\n"
@@ -311,13 +313,13 @@ TEST_P(BadInput, UnorderedAndDuplicateTimes)
     for (std::size_t i = 0; i < once.size(); ++i)
         twice.insert(twice.begin() + static_cast<std::ptrdiff_t>(2 * i), once[i]);
     if (f.sorts)
-        expect_bridged(file_of(f, twice), "for the same ");
+        expect_bridged(file_of(f, twice), f.twice);
     else
         expect_refused(file_of(f, twice), "duplicate");
     // One alone among good ones is bridged.
     auto one = good_rows();
     one.insert(one.begin() + 9, one[8]);
-    expect_bridged(file_of(f, one), f.sorts ? "for the same " : "duplicate of ");
+    expect_bridged(file_of(f, one), f.sorts ? f.twice : "duplicate of ");
 }
 TEST_P(BadInput, AGigabyteOfZeros)
 {
@@ -364,6 +366,27 @@ TEST(BadCsv, UnitsThatContradictOrDoNotExist)
 }
 
 // Keys of the artist model, for completeness: the same questions.
+// What is asked for beyond the ends of a file is not there, and said.
+TEST(Window, BeyondTheEndsOfTheWeatherIsTold)
+{
+    const Workplace work("window");
+    std::string text = "time,air_temp_c\n";
+    for (int h = 0; h < 24; ++h) text += printed("2020-01-02T%02d:00Z,%d\n", h, h);
+    write_file(work / "w.csv", text);
+    const auto said = [&](const char* from, const char* to) {
+        const Outcome o = run_petrichor({{"simulate", "w.csv", "--latitude", "45", "--longitude", "8", "--from",
+                                          from, "--to", to, "-o", "out.csv"}},
+                                        work.path());
+        EXPECT_EQ(o.exit_code, 0) << o.err;
+        return o.err;
+    };
+    const std::string both = said("2020-01-01", "2020-01-05");
+    EXPECT_NE(both.find("--from is before the weather, which begins at 2020-01-02T00:00:00Z"), std::string::npos)
+        << both;
+    EXPECT_NE(both.find("--to is after the weather, which ends at "), std::string::npos) << both;
+    EXPECT_EQ(said("2020-01-02T03:00", "2020-01-02T20:00").find("the weather, which"), std::string::npos);
+}
+
 TEST(BadKeys, AreListedWithTheirLines)
 {
     Workplace work("bad-keys");

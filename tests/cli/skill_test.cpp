@@ -122,6 +122,58 @@ TEST(Skill, RadiationInATownIsNearerThanSolweigs)
     EXPECT_LT(score("champaign_1998_half_hourly", "wetness"), 0.5) << "kappa";
 }
 
+// A winter of rain under a black sky, whose instrument reads 5 % less from a day on.
+TEST(Skill, AnInstrumentThatChangesIsTold)
+{
+    const auto table_of = [](double less) {
+        weather::ForcingTable raw;
+        raw.site = {.latitude_deg = 45.3, .longitude_deg = 5.77, .elevation_m = 1325.0};
+        const std::int64_t begin = *weather::us_from_iso("2010-11-01T00:00Z"),
+                           change = *weather::us_from_iso("2010-12-16T00:00Z");
+        for (int h = 0; h < 24 * 90; ++h) {
+            const std::int64_t us = begin + h * 3600000000LL;
+            const double air_k = 272.0 + h % 5, black = 5.670374419e-8 * std::pow(air_k, 4.0);
+            raw.time_us.push_back(us);
+            raw[weather::Field::AirTemp].push_back(air_k);
+            raw[weather::Field::RelHumidity].push_back(97.0);
+            raw[weather::Field::Wind].push_back(2.0);
+            raw[weather::Field::Rain].push_back(1.0 / 3600.0);
+            raw[weather::Field::Longwave].push_back(black * (1.0 + 0.002 * (h % 7 - 3) -
+                                                             (us >= change ? less : 0.0)));
+        }
+        return raw;
+    };
+    const auto row = [](const std::vector<SkillRow>& rows, const std::string& quantity) {
+        for (const SkillRow& r : rows)
+            if (r.quantity == quantity) return r;
+        return SkillRow{};
+    };
+    const auto rows = longwave_rows("made up", table_of(0.05));
+    EXPECT_NEAR(row(rows, "sky step on 2010-12-16").bias, -0.05, 1e-3);
+    const SkillRow before = row(rows, "under cloud to 2010-12-16"),
+                   from = row(rows, "under cloud from 2010-12-16");
+    EXPECT_EQ(before.count, 45u * 24u);
+    EXPECT_EQ(from.count, 45u * 24u);
+    EXPECT_NEAR(from.bias - before.bias, 0.05 * 318.0, 2.0);
+    for (const SkillRow& r : longwave_rows("made up", table_of(0.01)))
+        EXPECT_EQ(r.quantity.find("step"), std::string::npos) << r.quantity;
+}
+
+// Of the shared stations one changed in its winter: the second half of 2010-11.
+TEST(Skill, TheWinterOf2010ChangedItsInstrument)
+{
+    NEED_ASSETS(assets);
+    const Board& board = board_of(assets);
+    double before = kNoScore, from = kNoScore;
+    for (const BoardRow& row : board.rows) {
+        if (row.ours.set != "2010_11") continue;
+        if (row.ours.quantity == "under cloud to 2010-12-16") before = row.ours.bias;
+        if (row.ours.quantity == "under cloud from 2010-12-16") from = row.ours.bias;
+    }
+    EXPECT_LT(std::abs(before), 7.0);
+    EXPECT_GT(from, 20.0);
+}
+
 TEST(Skill, AFolderWithoutDataIsNamed)
 {
     const auto folder = std::filesystem::temp_directory_path() / "petrichor_skill_empty";

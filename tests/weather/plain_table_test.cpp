@@ -165,6 +165,9 @@ TEST(PlainTable, TitlesAndUnitsAroundTheNames)
         read_weather("Station: Grenoble\nLatitude; 45.25\nLongitude,5.5\n" + usual());
     EXPECT_EQ(placed.table.site.latitude_deg, 45.25);
     EXPECT_EQ(placed.table.site.longitude_deg, 5.5);
+    const auto comma =
+        read_weather("Latitude;45,25;;\nLongitude;5,5;;\n" + text_of(kNames, hours(), ";"));
+    EXPECT_EQ(comma.table.site.latitude_deg, 45.25);
     const Row bare = {"time",     "sw_down",      "lw_down", "precip",
                       "air_temp", "rel_humidity", "wind",    "pressure"};
     const std::string rows = usual().substr(usual().find('\n') + 1);
@@ -187,6 +190,13 @@ TEST(PlainTable, TitlesAndUnitsAroundTheNames)
          {Field::Shortwave, Field::Longwave, Field::AirTemp, Field::Wind, Field::Pressure})
         EXPECT_EQ(toa5.table[f], want.table[f]) << field_info(f).name;
     EXPECT_EQ(toa5.table[Field::Rain][5], want.table[Field::Precip][5]);
+}
+
+TEST(PlainTable, NamesWithoutRowsSaySo)
+{
+    for (const char* text : {"time,air_temp_c,precip_mm\n",
+                             "time,air_temp_c,precip_mm\n# nothing yet\n\n", "time;air_temp_c\n"})
+        EXPECT_THAT(refusal(text), HasSubstr("0 good rows")) << text;
 }
 
 TEST(PlainTable, NamesAsProgramsWriteThem)

@@ -114,7 +114,7 @@ void read_place(std::string_view text, const PlainTable& table, RowCollector& ro
         while (!comment && !value.empty() &&
                std::string_view(",;\t ").find(value.back()) != value.npos)
             value.remove_suffix(1);
-        const auto number = to_number(value);
+        const auto number = comment ? to_number(value) : cell_number(value, table);
         if (comment && key == "petrichor") rows.report().format = shown(value);
         if (key == "name") site.name = shown(value);
         if (comment && key == "note")
@@ -240,6 +240,9 @@ void find_date_order(Header& h, const PlainTable& table, RowCollector& rows,
     }
     h.times.order = options.date_order;
     if (options.date_order != DateOrder::Unknown) return;
+    const bool any =
+        !orders.either().empty() || !orders.day_first().empty() || !orders.month_first().empty();
+    if (!any) return;  // no rows: that is said later
     constexpr const char* kFix =
         "Write them as 2024-02-01, or say --date-order dmy or mdy (in a scenario [weather] "
         "date_order)";

@@ -1,8 +1,11 @@
 #include "cli/bench/skill/longwave.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "weather/physics/constants.h"
+#include "weather/readers/text.h"
 
 namespace petrichor::cli {
 
@@ -12,24 +15,59 @@ using weather::ForcingTable;
 namespace {
 
 constexpr std::size_t kFewHours = 50;
+constexpr double kStep = 0.03;  // of the measured sky: 10 W/m2; the year's round makes 0.012
 constexpr double kSun_w_m2 = 300.0, kClear = 0.3;  // 0.3 of cloud takes a hundredth of the sun
 constexpr double kFalls_kg_m2_s = 0.5 / 3600.0;
 
+// A share of what a black sky sends, and when.
+struct SkyHour {
+    std::int64_t time_us;
+    double less_1;
+};
+
 // The measured longwave over that of a black sky as warm as the air, less 1, in damp hours with
 // rain or snow: low cloud then, which is nearly black. What is far from 0 is the instrument's.
-ErrorSum sky_of_falling_hours(const ForcingTable& made, const ForcingTable& raw)
+std::vector<SkyHour> sky_of_falling_hours(const ForcingTable& made, const ForcingTable& raw)
 {
-    ErrorSum sum;
-    if (!raw.has(Field::RelHumidity)) return sum;
+    std::vector<SkyHour> hours;
+    if (!raw.has(Field::RelHumidity)) return hours;
     for (std::size_t i = 0; i < raw.rows(); ++i) {
         double falls = 0.0;
         for (const Field f : {Field::Precip, Field::Rain, Field::Snow})
             if (raw.has(f) && !std::isnan(raw[f][i])) falls += raw[f][i];
         if (!(falls > kFalls_kg_m2_s && raw[Field::RelHumidity][i] >= 95.0)) continue;
         const double air_k = made[Field::AirTemp][i], square = air_k * air_k;
-        sum.add(raw[Field::Longwave][i] / (weather::kStefanBoltzmann * square * square) - 1.0);
+        const double less_1 =
+            raw[Field::Longwave][i] / (weather::kStefanBoltzmann * square * square) - 1.0;
+        if (std::isfinite(less_1)) hours.push_back({raw.time_us[i], less_1});
     }
-    return sum;
+    return hours;
+}
+
+// The time from which these hours have another mean: where the sum of differences from the mean of
+// all is farthest from 0 (Pettitt's manner), with kFewHours at least on either side.
+struct SkyStep {
+    std::int64_t from_us = 0;
+    double step = 0.0;  // of the means after and before it
+    std::size_t hours = 0;
+};
+SkyStep largest_step(const std::vector<SkyHour>& hours)
+{
+    double all = 0.0, before = 0.0, farthest = -1.0;
+    for (const SkyHour& h : hours) all += h.less_1;
+    const auto n = static_cast<double>(hours.size());
+    SkyStep found;
+    for (std::size_t i = 1; i < hours.size(); ++i) {
+        before += hours[i - 1].less_1;
+        if (i < kFewHours || hours.size() - i < kFewHours) continue;
+        const auto k = static_cast<double>(i);
+        const double step = (all - before) / (n - k) - before / k;
+        const double far = std::abs(step) * std::sqrt(k * (n - k));
+        if (far <= farthest) continue;
+        farthest = far;
+        found = {hours[i].time_us, step, hours.size()};
+    }
+    return found;
 }
 
 }  // namespace
@@ -48,8 +86,11 @@ std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& 
     if (!raw.has(Field::Longwave)) return {};
     const ForcingTable made = without_longwave(raw);
     if (made.rows() != raw.rows()) return {};  // rows were divided: nothing to set side by side
-    const ErrorSum black = sky_of_falling_hours(made, raw);
-    ErrorSum all, cloudy, levelled, sunny;
+    const std::vector<SkyHour> falling = sky_of_falling_hours(made, raw);
+    ErrorSum black;
+    for (const SkyHour& h : falling) black.add(h.less_1);
+    const SkyStep step = largest_step(falling);
+    ErrorSum all, cloudy, levelled, sunny, cloudy_before, cloudy_after;
     for (std::size_t i = 0; i < raw.rows(); ++i) {
         const double measured = raw[Field::Longwave][i];
         const double error = made[Field::Longwave][i] - measured;
@@ -59,6 +100,7 @@ std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& 
             sunny.add(error);
         if (made[Field::Cloud][i] < 0.9) continue;
         cloudy.add(error);
+        (raw.time_us[i] < step.from_us ? cloudy_before : cloudy_after).add(error);
         if (black.count() >= kFewHours)
             levelled.add(made[Field::Longwave][i] - measured / (1.0 + black.bias()));
     }
@@ -78,6 +120,16 @@ std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& 
                         1.0 + black.bias(), black.bias(), "data, no score"});
         rows.push_back({set, "longwave, that sky black", "W/m2", levelled.count(),
                         std::abs(levelled.bias()), levelled.bias(), "|bias|"});
+    }
+    if (std::abs(step.step) >= kStep) {
+        // What follows such a day is another instrument's, or another place's.
+        const std::string day = weather::iso_from_us(step.from_us).substr(0, 10);
+        rows.push_back({set, "sky step on " + day, "of a black sky", step.hours,
+                        std::abs(step.step), step.step, "data, no score"});
+        rows.push_back({set, "under cloud to " + day, "W/m2", cloudy_before.count(),
+                        std::abs(cloudy_before.bias()), cloudy_before.bias(), "|bias|"});
+        rows.push_back({set, "under cloud from " + day, "W/m2", cloudy_after.count(),
+                        std::abs(cloudy_after.bias()), cloudy_after.bias(), "|bias|"});
     }
     return rows;
 }

@@ -18,7 +18,8 @@ weather::ForcingTable without_longwave(const weather::ForcingTable& raw);
 /// Two rows beside them tell what the instrument does to these, where it measured 50 damp hours (95
 /// % and more) of rain or snow (0.5 mm/h and more): its longwave then over that of a black sky as
 /// warm as the air, which such a sky nearly is; and the bias under cloud if the measured longwave
-/// is divided by that.
+/// is divided by that. Where that share changes by 0.03 and more from a day on, the day and the
+/// change are told, with the bias under cloud before it and from it on.
 std::vector<SkillRow> longwave_rows(const std::string& set, const weather::ForcingTable& raw);
 
 }  // namespace petrichor::cli
