@@ -76,7 +76,9 @@ TEST(GroundTone, VariesOverMetresToHundredsOfMetres)
                                    return ground_moisture(at + vec2(step_m, 0.0f), 0.0f) - ground_moisture(at, 0.0f);
                                }).deviation;
         EXPECT_GT(differs, before) << step_m;
-        if (step_m < 1.0f) EXPECT_LT(differs, 0.01);
+        if (step_m < 1.0f) {
+            EXPECT_LT(differs, 0.01);
+        }
         before = differs;
     }
     EXPECT_GT(before, 0.2);
