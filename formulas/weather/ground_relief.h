@@ -17,24 +17,28 @@ SHARED_CONST float kGroundReliefUnit_m = 0.015f;
 // It repeats after so many cells, 2 km: more than whole numbers of floats of the world need.
 SHARED_CONST int kGroundPeriod = 1024;
 
-// 0 the bottom of a hollow .. 1 the top of a bump. xz: world, metres.
+// 0 the bottom of a hollow .. 1 the top of a bump. xz: world, metres. The lattices of its octaves are turned against each
+// other and bent: of one lattice puddles were boxes with teeth along the axes of the world.
 SHARED_FN float ground_relief(vec2 xz)
 {
-    const float wide = tileable_noise(xz * 0.43f, kGroundPeriod, 131u);
-    const float near = tileable_noise(xz * 1.31f + 7.3f, kGroundPeriod, 137u);
-    const float fine = tileable_noise(xz * 6.7f + 3.1f, kGroundPeriod, 139u);
-    return 0.55f * wide + 0.32f * near + 0.13f * fine;
+    const vec2 turned = vec2(0.83f * xz.x - 0.56f * xz.y, 0.56f * xz.x + 0.83f * xz.y);
+    const vec2 other = vec2(0.36f * xz.x + 0.93f * xz.y, 0.36f * xz.y - 0.93f * xz.x);
+    const float fine = endless_noise(turned * 2.9f + 3.1f, 139u) - 0.5f;
+    const float near = endless_noise(other * 0.97f + vec2(7.3f + 0.4f * fine, 7.3f), 137u) - 0.5f;
+    const float wide = endless_noise(turned * 0.37f + vec2(0.5f * near, 0.0f), 131u) - 0.5f;
+    const float broad = endless_noise(xz * 0.29f + vec2(0.0f, 0.6f * near), 149u) - 0.5f;
+    return clamp(0.498f + 0.40f * broad + 0.40f * wide + 0.30f * near + 0.11f * fine, 0.0f, 1.0f);
 }
 
 // Its mean over a pixel of a width, as far as one place can tell: the rest of its deviation, 0.15 in all, is what
-// ground_relief_blurred says. Half of the variance is lost at 2.2 m.
+// ground_relief_blurred says. Half of the variance is lost at 3 m.
 SHARED_FN float ground_relief_seen(vec2 xz, float width_m)
 {
-    return 0.498f + (ground_relief(xz) - 0.498f) * sqrt(1.0f - variance_lost(width_m, 2.2f));
+    return 0.498f + (ground_relief(xz) - 0.498f) * sqrt(1.0f - variance_lost(width_m, 3.0f));
 }
 SHARED_FN float ground_relief_blurred(float width_m)
 {
-    return 0.15f * sqrt(variance_lost(width_m, 2.2f));
+    return 0.15f * sqrt(variance_lost(width_m, 3.0f));
 }
 
 // How wind and the lie of the land share out the snow of wide ground: 1 in the mean, 0.4 to 1.6, in places 95, 31

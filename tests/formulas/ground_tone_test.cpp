@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formulas/weather/ground_relief.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
@@ -75,10 +76,37 @@ TEST(GroundTone, VariesOverMetresToHundredsOfMetres)
                                    return ground_moisture(at + vec2(step_m, 0.0f), 0.0f) - ground_moisture(at, 0.0f);
                                }).deviation;
         EXPECT_GT(differs, before) << step_m;
-        if (step_m < 1.0f) EXPECT_LT(differs, 0.01);
+        if (step_m < 1.0f) {
+            EXPECT_LT(differs, 0.01);
+        }
         before = differs;
     }
     EXPECT_GT(before, 0.2);
+}
+
+// Slopes along two axes at right angles against those between: 0 where no direction is preferred, 1 where two alone are.
+template <typename Value>
+double squareness(Value value)
+{
+    double along = 0.0, across = 0.0, all = 0.0;
+    for (uint i = 0; i < 60000u; ++i) {
+        const vec2 at(900.0f * hash_f(i) - 450.0f, 900.0f * hash_f(i + 7777777u) - 450.0f);
+        const double x = static_cast<double>(value(at + vec2(1.0f, 0.0f)) - value(at - vec2(1.0f, 0.0f)));
+        const double z = static_cast<double>(value(at + vec2(0.0f, 1.0f)) - value(at - vec2(0.0f, 1.0f)));
+        const double square = x * x + z * z;
+        const double turn = 4.0 * std::atan2(z, x);
+        along += square * std::cos(turn);
+        across += square * std::sin(turn);
+        all += square;
+    }
+    return std::hypot(along, across) / all;
+}
+
+// Puddles are no boxes along the axes of the world, as those of noise of one lattice are.
+TEST(GroundRelief, HasNoDirectionOfItsOwn)
+{
+    EXPECT_LT(squareness([](vec2 at) { return ground_relief(at); }), 0.06);
+    EXPECT_GT(squareness([](vec2 at) { return endless_noise(at * 0.43f, 131u); }), 0.15);
 }
 
 // A pond of wide ground ends in a marsh: never wider than the water, the deeper the more of it, whole in the end.

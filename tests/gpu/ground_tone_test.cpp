@@ -71,7 +71,9 @@ TEST_F(GroundToneTest, OfWideGroundIsThatOfTheFormulaAndOfSmallGroundNone)
                 }
             }
         }
-        if (width_m > 142.0f) EXPECT_GT(most, 0.08f);
+        if (width_m > 142.0f) {
+            EXPECT_GT(most, 0.08f);
+        }
     }
 }
 
