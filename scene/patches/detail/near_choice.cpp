@@ -401,12 +401,19 @@ std::vector<NearChooser::Look> NearChooser::looks(const SamplePoint& p, const Ne
     const auto turn = portable_sin_cos(6.283185307179586 * static_cast<double>(unit_float(hash)));
     const auto cosine = static_cast<float>(turn.cosine), sine = static_cast<float>(turn.sine);
     const glm::vec3 t = frame.t * cosine + frame.b * sine, b = frame.b * cosine - frame.t * sine;
+    std::array<glm::vec3, 4> inwards;
+    const auto count = static_cast<std::size_t>(polygon.count);
+    for (std::size_t k = 0; k < count; ++k)
+        inwards[k] = glm::cross(n, polygon.corner[(k + 1) % count] - polygon.corner[k]);
     for (const glm::vec3& local : directions_) {
         const glm::vec3 d = t * local.x + b * local.y + p.normal * local.z;
         const float falls = glm::dot(d, n);
         if (!(falls < 0.0f)) continue;
         const glm::vec3 x = p.position_m + d * (first / falls);
-        if (holds(polygon, n, x, 0.0f)) looks.push_back({x, 1.0f});
+        bool within = true;
+        for (std::size_t k = 0; k < count && within; ++k)
+            within = glm::dot(inwards[k], x - polygon.corner[k]) >= 0.0f;
+        if (within) looks.push_back({x, 1.0f});
     }
     if (looks.size() >= rays) {
         for (std::size_t r = 0; r < rays; ++r) looks[r] = looks[r * looks.size() / rays];
