@@ -37,8 +37,20 @@ Progress::~Progress()
     if (drawn_) std::cerr << "\n";
 }
 
+void Progress::stage(const std::string& name, bool at_once)
+{
+    if (name == stage_) return;
+    stage_ = name;
+    const auto now = Clock::now();
+    if (!at_once && std::chrono::duration<double>(now - last_).count() < (terminal_ ? 0.1 : 1.0)) return;
+    last_ = now;
+    if (terminal_) draw("");
+    else std::cerr << "info " << what_ << ": " << stage_ << std::endl;
+}
+
 void Progress::update(int done)
 {
+    done_ = done;
     const auto now = Clock::now();
     const double between_s = std::chrono::duration<double>(now - last_).count();
     const bool last = done == total_;
@@ -49,16 +61,21 @@ void Progress::update(int done)
     const std::string time = last       ? ", in " + duration_text(elapsed_s)
                              : done > 0 ? ", " + duration_text(left_s) + " left"
                                         : "";
-    const std::string count = std::to_string(done) + "/" + std::to_string(total_);
-    if (!terminal_) {
-        std::cerr << "info " << what_ << ": " << count << time << std::endl;
-        return;
-    }
+    if (last) stage_.clear();
+    if (terminal_) return draw(time);
+    const std::string of = stage_.empty() ? "" : ", " + stage_;
+    std::cerr << "info " << what_ << ": " << done << "/" << total_ << of << time << std::endl;
+}
+
+void Progress::draw(const std::string& time)
+{
     constexpr int kWidth = 30;
-    const int filled = total_ > 0 ? kWidth * done / total_ : kWidth;
+    const int filled = total_ > 0 ? kWidth * done_ / total_ : kWidth;
+    const std::string count = std::to_string(done_) + "/" + std::to_string(total_);
+    const std::string of = stage_.empty() ? "" : ", " + stage_;
     std::cerr << "\r" << what_ << " [" << std::string(static_cast<std::size_t>(filled), '#')
               << std::string(static_cast<std::size_t>(kWidth - filled), '.') << "] " << count
-              << time << "\x1b[K" << std::flush;
+              << of << time << "\x1b[K" << std::flush;
     drawn_ = true;
 }
 

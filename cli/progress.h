@@ -20,13 +20,18 @@ public:
 
     /// `done` pieces are finished.
     void update(int done);
+    /// What goes on now. In a log it is told where the last line is a second old, or at once.
+    void stage(const std::string& name, bool at_once = false);
 
 private:
+    void draw(const std::string& time);
     using Clock = std::chrono::steady_clock;
     std::string what_;
     int total_;
     bool terminal_;
     bool drawn_ = false;
+    int done_ = 0;
+    std::string stage_;
     Clock::time_point start_;
     Clock::time_point last_;
 };

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/words.h"
@@ -32,6 +35,8 @@ double cpu_seconds()
     };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
+
+constexpr std::uintmax_t kLargeFile = 32u << 20;  // takes a while to be read
 
 LoadedScene load(const SceneViewOptions& options)
 {
@@ -130,15 +135,21 @@ std::size_t scene_triangles(const scene::Scene& scene)
 SceneView open_scene(const SceneViewOptions& options)
 {
     SceneView view;
+    std::optional<Progress> progress;
+    if (!options.quiet) {
+        progress.emplace("scene", 100);
+        std::error_code unknown;
+        const auto bytes = std::filesystem::file_size(options.file, unknown);
+        if (!unknown) progress->stage("reading " + std::to_string(bytes >> 20) + " MiB", bytes >= kLargeFile);
+    }
     view.scene = std::make_unique<scene::Scene>(load(options).scene);
     TransportOptions transport;
     transport.patches.cell_m = static_cast<float>(options.cell_m);
     transport.patches.rays = options.rays;
     transport.patches.threads = options.threads;
-    std::optional<Progress> progress;
     if (!options.quiet) {
         transport.patches.progress = [&](std::string_view what, float share) {
-            if (!progress) progress.emplace("scene", 100);
+            progress->stage(std::string(what));
             progress->update(static_cast<int>(traced_share(what, share) * 100.0));
         };
     }
@@ -148,6 +159,7 @@ SceneView open_scene(const SceneViewOptions& options)
     view.cpu_seconds = cpu_seconds() - before;
     if (options.fresh) {
         const double start = cpu_seconds();
+        if (progress) progress->stage("what is close, lamps and glow", true);
         std::vector<std::string> ignored;
         const auto lights = prepare_patch_scene(*view.scene, view.transport, transport, ignored);
         view.close = {lights->near.entries(), lights->near.sources(), cpu_seconds() - start};

@@ -519,8 +519,10 @@ double traced_share(std::string_view stage, float share)
         std::string_view name;
         double first, length;
     };
-    constexpr Stage kStages[] = {{"patches", 0.0, 0.2},
-                                 {"links", 0.2, 0.45},
+    constexpr Stage kStages[] = {{"triangles", 0.0, 0.04},
+                                 {"tree of boxes", 0.04, 0.06},
+                                 {"patches", 0.1, 0.15},
+                                 {"links", 0.25, 0.4},
                                  {"connections", 0.65, 0.05},
                                  {"visibility", 0.7, 0.3}};
     for (const Stage& s : kStages) {
@@ -533,6 +535,12 @@ SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptio
 {
     const auto start = std::chrono::steady_clock::now();
     SceneTransport transport;
+    const auto begins = [&](std::string_view stage, float share) {
+        if (options.patches.stop && options.patches.stop())
+            throw Interrupted("interrupted while the scene was read");
+        if (options.patches.progress) options.patches.progress(stage, share);
+    };
+    begins("triangles", 0.0f);
     // The alpha of holes counts by its encoded bytes: nothing is decoded when all is kept.
     const scene::Triangles plain(scene, {});
     const std::string key = scene::patches_fingerprint(what_rays_see(scene, plain), options.patches);
@@ -548,7 +556,9 @@ SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptio
         }
     }
     if (!found_patches) {
+        begins("triangles", 0.5f);
         const scene::Triangles triangles(scene, alpha_images(scene, transport.notes));
+        begins("tree of boxes", 0.0f);
         const scene::Tracer tracer(triangles);
         transport.patches = scene::build_patches(tracer, options.patches);
         if (options.cache.on())

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -44,6 +46,36 @@ TEST_F(SceneCommand, SaysWhatItSees)
     const Outcome words = run({"tiny.glb"});
     EXPECT_NE(words.out.find("ground"), std::string::npos);
     EXPECT_NE(words.out.find("found in the cache"), std::string::npos);
+}
+
+// A tiny scene whose text ends in blanks.
+std::string long_file(std::size_t blanks)
+{
+    std::string glb = testing_program::tiny_scene_glb();
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, &glb[at], sizeof value);
+        return value;
+    };
+    const auto add = [&](std::size_t at) {
+        const std::uint32_t value = number(at) + static_cast<std::uint32_t>(blanks);
+        std::memcpy(&glb[at], &value, sizeof value);
+    };
+    const std::size_t end = 20 + std::size_t{number(12)};
+    add(8);
+    add(12);
+    return glb.insert(end, blanks, ' ');
+}
+
+TEST_F(SceneCommand, ALargeFileIsSaidBeforeItIsRead)
+{
+    testing_program::write_file(place / "large.glb", long_file(std::size_t{33} << 20));
+    const Outcome large = run({"large.glb"});
+    ASSERT_EQ(large.exit_code, 0) << large.err;
+    EXPECT_EQ(large.err.find("info scene: reading 33 MiB"), 0u) << large.err;
+    EXPECT_EQ(run({"large.glb", "--json"}).err.find("reading"), std::string::npos);
+    EXPECT_EQ(run({"tiny.glb"}).err.find("reading"), std::string::npos);
+    EXPECT_NE(run({"tiny.glb", "--fresh"}).err.find("info scene: what is close"), std::string::npos);
 }
 
 TEST_F(SceneCommand, WritesADemoSceneForOtherPrograms)

@@ -382,6 +382,35 @@ TEST(NearLight, ABevelWithoutSamplesIsAsked)
     EXPECT_GT(asked, 2);
 }
 
+// Of a beam's end most of a side lies in the wall, its middle too: what stands out is asked all the same.
+TEST(NearLight, ABeamsEndThatStandsOutOfAWallIsAsked)
+{
+    Scene scene = empty_scene();
+    add_box(scene, {0, 0, -0.4f}, {6, 4, 0}, false);
+    std::vector<glm::vec3> ends;
+    for (int k = 0; k < 12; ++k) {
+        const glm::vec3 low(0.31f + 0.47f * static_cast<float>(k), 0.3f + 0.25f * static_cast<float>(k), -0.18f);
+        add_box(scene, low, low + glm::vec3(0.1f, 0.06f, 0.19f), false);
+        // What the lookup finds there faces half along.
+        add_face(scene, low + glm::vec3(-0.02f, 0.08f, 0.181f), {0.08f, 0, 0.1f}, {0, 0.1f, 0});
+        ends.push_back(low + glm::vec3(0.0f, 0.03f, 0.185f));
+    }
+    const Cut cut(scene, 0.35f);
+    const auto receivers = near_receivers(cut.patches, cut.tracer, near_faces(cut.triangles), 0);
+    const LeafFinder finder(cut.patches);
+    const glm::vec3 n(-1, 0, 0);
+    int asked = 0;
+    for (const glm::vec3& at : ends) {
+        const std::uint32_t leaf = finder.leaf_at(at, n);
+        if (leaf >= cut.patches.count) continue;
+        ++asked;
+        EXPECT_TRUE(std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
+                                [&](const SamplePoint& p) { return glm::dot(p.normal, n) > 0.9f; }))
+            << at.x;
+    }
+    EXPECT_GT(asked, 2);
+}
+
 // Two triangles of a face are one polygon.
 TEST(NearLight, AFaceOfABoxIsOnePolygon)
 {

@@ -28,6 +28,8 @@ constexpr float kAlike = 0.9f;          // cosine of two normals
 constexpr int kSourceLevel = 1;          // of cells that pieces of faces are as long as
 constexpr int kGlowLevel = 0;
 constexpr int kMostAlong = 8;
+constexpr float kTowardsEdge = 0.1f;   // of a side's breadth
+constexpr float kAtEdge = 0.02f;
 constexpr float kTowardsMiddle = 0.1f;  // of a polygon, from what is nearest to its receivers
 constexpr float kFarFactor = 0.02f;     // area over distance squared
 constexpr float kLeastSquare = 1e-4f;   // of form factors, over the patch
@@ -57,20 +59,39 @@ Sphere sphere_around(const NearPolygon& polygon)
     return {0.5f * (low + high), 0.5f * std::sqrt(glm::dot(high - low, high - low))};
 }
 
-// Points along the middle of a face's side, one a cell.
-std::vector<SamplePoint> along(const NearFace& face, bool back, float cell_m)
+// A place of a face's side: its middle, and towards its edges, nearer and nearest.
+struct Place {
+    SamplePoint middle;
+    std::array<std::array<SamplePoint, 2>, 4> edges;
+    std::size_t count;  // of edges
+};
+
+// Places along a face's side, one a cell.
+std::vector<Place> along(const NearFace& face, bool back, float cell_m)
 {
     const auto c = corners_of(face.polygon);
     const glm::vec3 u = c[1] - c[0], v = c[2] - c[1];
     const bool by_u = glm::dot(u, u) > glm::dot(v, v);
     const float length = std::sqrt(std::max(glm::dot(u, u), glm::dot(v, v)));
     const int count = std::clamp(static_cast<int>(length / cell_m + 0.5f), 1, kMostAlong);
-    std::vector<SamplePoint> points;
+    const glm::vec3 n = back ? -face.normal : face.normal;
+    const auto point = [&](float at, float across) {
+        return SamplePoint{by_u ? point_in(c, at, across) : point_in(c, across, at), n};
+    };
+    std::vector<Place> places;
     for (int k = 0; k < count; ++k) {
         const float at = (static_cast<float>(k) + 0.5f) / static_cast<float>(count);
-        points.push_back({by_u ? point_in(c, at, 0.5f) : point_in(c, 0.5f, at), back ? -face.normal : face.normal});
+        Place place{point(at, 0.5f), {}, count == 1 ? std::size_t{4} : std::size_t{2}};
+        for (std::size_t e = 0; e < 2; ++e) {
+            const float off = e == 0 ? kTowardsEdge : kAtEdge;
+            place.edges[0][e] = point(at, off);
+            place.edges[1][e] = point(at, 1.0f - off);
+            place.edges[2][e] = point(off, 0.5f);
+            place.edges[3][e] = point(1.0f - off, 0.5f);
+        }
+        places.push_back(place);
     }
-    return points;
+    return places;
 }
 
 // Where no receiver of a leaf faces along with what asks it.
@@ -86,6 +107,16 @@ void add_bevels(const Patches& patches, const Tracer& tracer, const NearFaces& f
         return std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
                            [&](const SamplePoint& other) { return glm::dot(other.normal, p.normal) > kAlike; });
     };
+    // Whether the point shows; its leaf is known then, or asked.
+    const auto ask = [&](const SamplePoint& p, std::vector<Asks>& list) {
+        const std::uint32_t leaf = finder.leaf_at(p.position_m, p.normal);
+        if (leaf >= patches.count) return false;
+        if (known(p, leaf)) return true;
+        const RayHit hit = tracer.nearest({p.position_m + p.normal * ray_lift_m(p.position_m, regular), p.normal});
+        if (hit.hit() && hit.back && !tracer.triangles().double_sided(hit.triangle)) return false;
+        list.push_back({p, leaf});
+        return true;
+    };
     constexpr std::size_t kFacesAJob = 512;
     std::vector<std::vector<Asks>> asks((faces.faces.size() + kFacesAJob - 1) / kFacesAJob);
     parallel_for(asks.size(), threads, [&](std::size_t job) {
@@ -95,13 +126,16 @@ void add_bevels(const Patches& patches, const Tracer& tracer, const NearFaces& f
             const bool both = tracer.triangles().double_sided(face.triangles[0]);
             for (const bool back : {false, true}) {
                 if (back && !both) continue;
-                for (const SamplePoint& p : along(face, back, regular)) {
-                    const std::uint32_t leaf = finder.leaf_at(p.position_m, p.normal);
-                    if (leaf >= patches.count || known(p, leaf)) continue;
-                    const RayHit hit =
-                        tracer.nearest({p.position_m + p.normal * ray_lift_m(p.position_m, regular), p.normal});
-                    const bool inside = hit.hit() && hit.back && !tracer.triangles().double_sided(hit.triangle);
-                    if (!inside) asks[job].push_back({p, leaf});
+                for (const Place& place : along(face, back, regular)) {
+                    // Of a beam's end in a wall the middle is buried, and what stands out of the wall is seen: it may
+                    // ask another leaf.
+                    const bool shows = ask(place.middle, asks[job]);
+                    const glm::ivec3 cell = cell_of(place.middle.position_m, patches.cell_m);
+                    for (std::size_t k = 0; k < place.count; ++k) {
+                        const auto& [towards, at] = place.edges[k];
+                        if (shows && cell_of(at.position_m, patches.cell_m) == cell) continue;
+                        if (!ask(towards, asks[job])) ask(at, asks[job]);
+                    }
                 }
             }
         }
@@ -367,12 +401,19 @@ std::vector<NearChooser::Look> NearChooser::looks(const SamplePoint& p, const Ne
     const auto turn = portable_sin_cos(6.283185307179586 * static_cast<double>(unit_float(hash)));
     const auto cosine = static_cast<float>(turn.cosine), sine = static_cast<float>(turn.sine);
     const glm::vec3 t = frame.t * cosine + frame.b * sine, b = frame.b * cosine - frame.t * sine;
+    std::array<glm::vec3, 4> inwards;
+    const auto count = static_cast<std::size_t>(polygon.count);
+    for (std::size_t k = 0; k < count; ++k)
+        inwards[k] = glm::cross(n, polygon.corner[(k + 1) % count] - polygon.corner[k]);
     for (const glm::vec3& local : directions_) {
         const glm::vec3 d = t * local.x + b * local.y + p.normal * local.z;
         const float falls = glm::dot(d, n);
         if (!(falls < 0.0f)) continue;
         const glm::vec3 x = p.position_m + d * (first / falls);
-        if (holds(polygon, n, x, 0.0f)) looks.push_back({x, 1.0f});
+        bool within = true;
+        for (std::size_t k = 0; k < count && within; ++k)
+            within = glm::dot(inwards[k], x - polygon.corner[k]) >= 0.0f;
+        if (within) looks.push_back({x, 1.0f});
     }
     if (looks.size() >= rays) {
         for (std::size_t r = 0; r < rays; ++r) looks[r] = looks[r * looks.size() / rays];
