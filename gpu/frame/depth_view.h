@@ -8,7 +8,7 @@ namespace petrichor::gpu {
 
 inline constexpr int kShadowMapSize = 2048;   ///< texels a side of a cascade
 inline constexpr int kShelterMapSize = 2048;  ///< of the map along the falling rain
-inline constexpr int kSkyMapSize = 512;       ///< of each direction of the sky
+inline constexpr int kSkyMapSize = SKY_MAP_SIZE;      ///< of each direction of the sky
 
 /// One view of the scene from far away: along the sun (a shadow cascade) or along the falling rain.
 struct DepthView {
