@@ -165,6 +165,21 @@ void see_models(LightingVariant& variant, const GpuScene& scene, const shared::F
     if (models[LIGHTING_MODEL_LAYERED]) models[LIGHTING_MODEL_STANDARD] = false;
 }
 
+// Each is a look-up at every pixel: only those of what may lie there.
+std::vector<Fall> falls_of(const Frame& frame, const VisibleWeather& weather)
+{
+    std::array<glm::vec3, SKY_DIRECTIONS> sky;
+    for (int i = 0; i < SKY_DIRECTIONS; ++i) sky[static_cast<std::size_t>(i)] = sky_direction(i);
+    const shared::WeatherMoment& w = frame.weather;
+    const bool wet = weather.water || w.rain + w.film_albedo + w.film_smoothness > 0.0f;
+    const bool white = weather.snow || weather.frost;
+    std::vector<Fall> wanted = falls(w, sky);
+    std::erase_if(wanted, [&](const Fall& fall) {
+        return !(wet && fall.rain > 0.0f) && !(white && fall.snow > 0.0f);
+    });
+    return wanted;
+}
+
 void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeather& weather,
                 const FrameResources& r)
 {
@@ -186,18 +201,13 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
         c.sky_direction[i] =
             glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
     }
-    std::array<glm::vec3, SKY_DIRECTIONS> sky;
-    for (int i = 0; i < SKY_DIRECTIONS; ++i) sky[static_cast<std::size_t>(i)] = sky_direction(i);
-    for (const Fall& fall : falls(frame.weather, sky)) {
-        // Each is a look-up at every pixel: only those of what may lie there.
-        const shared::WeatherMoment& w = frame.weather;
-        const bool wet = weather.water || w.rain + w.film_albedo + w.film_smoothness > 0.0f;
-        const bool rains = wet && fall.rain > 0.0f;
-        const bool snows = (weather.snow || weather.frost) && fall.snow > 0.0f;
-        if (!rains && !snows) continue;
-        c.falls[c.fall_count++] =
-            glm::vec4(static_cast<float>(fall.direction), fall.rain, fall.snow, 0.0f);
+    int k = 0;
+    for (const Fall& fall : falls_of(frame, weather)) {
+        const int i = fall.direction;
+        c.falls[k++] = {c.sky_from_world[i], c.sky_direction[i], fall.rain, fall.snow, i};
     }
+    c.flow_size = r.surface_maps->flow->width;
+    c.snow_size = r.surface_maps->snow->width;
     const TrackMap& tracks = r.surface_maps->track_area;
     if (tracks.width > 0) {
         c.tracks =
@@ -406,6 +416,10 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     }
     const FallingPlan plan = plan_of(frame, sun, r);
     add_depth_maps(graph, frame, sun, r, weathered, plan);
+    std::vector<int> directions;
+    for (const Fall& fall : falls_of(frame, weather)) directions.push_back(fall.direction);
+    weather.falls = static_cast<std::uint32_t>(directions.size());
+    if (settings.shelter && r.depth_maps->sky_valid) add_sky_rows(graph, *r.depth_maps, directions);
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, *r.triangles, r.lights->shadowed);
 

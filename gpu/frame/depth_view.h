@@ -12,7 +12,7 @@ namespace petrichor::gpu {
 
 inline constexpr int kShadowMapSize = 2048;   ///< texels a side of a cascade
 inline constexpr int kShelterMapSize = 2048;  ///< of the map along the falling rain
-inline constexpr int kSkyMapSize = 512;       ///< of each direction of the sky
+inline constexpr int kSkyMapSize = SKY_MAP_SIZE;      ///< of each direction of the sky
 
 /// Where a map is asked: what lies outside of it throws its shadow on nothing that is seen.
 struct AskedPart {

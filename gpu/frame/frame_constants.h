@@ -14,6 +14,7 @@ struct VisibleWeather {
     bool snow = false;
     bool frost = false;
     bool place = false;  ///< pixels find it in their patches
+    std::uint32_t falls = 0;  ///< directions that it falls along (FrameConstants::falls)
 };
 
 /// Constants of one jittered sample. Views of the depth maps are filled in by the caller.

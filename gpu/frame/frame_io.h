@@ -13,9 +13,19 @@
 #define LIGHT_COARSE 8        // light tiles a side of a coarse tile
 #define GLOW_BLOCK 4          // pixels a side for which the glow of lamps is computed once
 #define SKY_DIRECTIONS 16     // depth maps over the upper hemisphere, for skylight's shadow
+#define SKY_MAP_SIZE 512      // texels a side of each
 #define SKY_PREFILTER_MIPS 6  // roughness 0, 0.2 .. 1
 
 SHARED_BEGIN
+
+// A direction that rain and snow come from.
+struct FallConstants {
+    mat4 map_from_world;  // of its depth map
+    vec4 from;            // towards the sky, unit; metres of a texel of the map
+    float rain;           // share of it
+    float snow;
+    int layer;            // number of the map
+};
 
 struct FrameConstants {
     mat4 world_to_clip;
@@ -23,8 +33,7 @@ struct FrameConstants {
     mat4 shelter_from_world;
     mat4 sky_from_world[SKY_DIRECTIONS];
     vec4 sky_direction[SKY_DIRECTIONS];  // towards the sky, unit
-    // Where rain and snow come from: number of the direction, share of the rain, of the snow, -.
-    vec4 falls[SKY_DIRECTIONS];
+    FallConstants falls[SKY_DIRECTIONS];  // where rain and snow come from, as many as SURFACE_SPEC_FALLS says
 
     vec3 camera_m;
     float time_s;
@@ -90,7 +99,6 @@ struct FrameConstants {
     float exposure_bias;  // linear factor
     float samples;
     float sun_angular_cos;   // cosine of the sun's angular radius
-    uint fall_count;         // of falls; 0: no shelter is known
     float shelter_spread_m;  // splashes and drift carry water and snow this far under a roof
     float horizon_fade;      // how fast mirrors darken below the horizon of the mesh
     float specular_aa;       // times the variance of normals inside a pixel
@@ -99,6 +107,8 @@ struct FrameConstants {
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
+    int flow_size;    // texels a side of the maps of waves and of snow
+    int snow_size;
     vec4 tracks;      // world x and z of the map's corner, repeats of it per metre along both
     vec2 tracks_y_m;  // heights between which it counts
     PatchGrid patches;  // levels 0: none

@@ -18,6 +18,7 @@
         "perceptual roughness, metallic, porosity; lighting model")                        \
     ROW(payload, 3, R8G8B8A8_UNORM, ALWAYS,                                                \
         "root of the reflectance at normal incidence, not of metal; direction of the tangent")
+#define GBUFFER_PAYLOAD 3  // its location
 #define GBUFFER_WEATHER(ROW)                                                                 \
     ROW(weather, 4, R8G8B8A8_UNORM, WEATHER, "film, standing water, snow, frost; each 0..1") \
     ROW(identity, 5, R16G16_UNORM, WEATHER, "number of the material; smoothness of the snow, with two sets the share of the first")

@@ -145,7 +145,7 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     };
     // Drawn into, or written by the resolve of a visibility buffer.
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
     targets.gbuffer.depth =
         target("depth", kDepthFormat,

@@ -480,6 +480,17 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
     }
 }
 
+// Its reflectance is 0.04 wherever it is asked, whatever its textures say, and it has no tangent.
+bool GpuScene::mirrors_as_glass(const GpuMaterial& material, const shared::MaterialConstants& c)
+{
+    const std::uint32_t other = BESIDES_SPECULAR_WORKFLOW | BESIDES_IRIDESCENT | BESIDES_ALONG;
+    const bool layers = std::any_of(material.layer_roles.begin(), material.layer_roles.end(),
+                                    [](std::uint32_t role) { return role != 0; });
+    return (material.besides & other) == 0 && !layers && material.own_surface == 0 &&
+           material.second == SECOND_NONE && c.ior == 1.5f && c.specular_factor == 1.0f &&
+           c.specular_color_factor == glm::vec3(1.0f);
+}
+
 // What of a material is not a matter of pipelines, textures and lists.
 void GpuScene::set_material(std::size_t index, const Material& source)
 {
@@ -496,6 +507,7 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                        (c.anisotropy_strength > 0.0f ? BESIDES_ALONG : 0u) |
                        (one_read(source, c) ? BESIDES_ONE_READ : 0u) |
                        (wide_ground_[index] ? BESIDES_WIDE_GROUND : 0u);
+    if (mirrors_as_glass(material, c)) material.besides |= BESIDES_AS_CLEARED;
     material.water &= ~WATER_BEADS;
     if (material.water != 0 && source.weather.beads > 0.0f) material.water |= WATER_BEADS;
     if (material.layers != 0) c.lighting_model = set_layers(material, source);

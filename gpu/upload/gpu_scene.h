@@ -173,6 +173,7 @@ private:
     void make_materials(const Device& device, const Scene& scene);
     void set_material(std::size_t index, const Material& source);
     void sum_up_materials();
+    static bool mirrors_as_glass(const GpuMaterial& material, const shared::MaterialConstants& c);
     std::uint32_t set_layers(GpuMaterial& material, const Material& source);
     const SamplerHandle& sampler(const Device& device, Wrap u, Wrap v, bool nearest);
 

@@ -18,9 +18,9 @@ constexpr int kSpecialized[] = {
     SURFACE_SPEC_SECOND,   SURFACE_SPEC_LOOKS,         SURFACE_SPEC_FADE,
     SURFACE_SPEC_OWN,      SURFACE_SPEC_LAYER_ROLES_A, SURFACE_SPEC_LAYER_ROLES_B,
     SURFACE_SPEC_BESIDES,  SURFACE_SPEC_PLACE,         SURFACE_SPEC_LAYER_FIRST,
-    SURFACE_SPEC_LAYER_ROLES_C,
+    SURFACE_SPEC_LAYER_ROLES_C,                        SURFACE_SPEC_FALLS,
     DECAL_SPEC_WEATHER,    DECAL_SPEC_EMISSION,        RESOLVE_SPEC_WEATHER,
-    RESOLVE_SPEC_EMISSION, RESOLVE_SPEC_BAKED};
+    RESOLVE_SPEC_EMISSION, RESOLVE_SPEC_BAKED,         RESOLVE_SPEC_PAYLOAD};
 constexpr bool all_differ()
 {
     for (std::size_t i = 0; i < std::size(kSpecialized); ++i) {
@@ -81,6 +81,7 @@ void draw_decals(PassContext& pass, const GpuScene& scene, const Frustum& frustu
             {SURFACE_SPEC_WATER, weather.water && own_weather ? material.water : 0u},
             {SURFACE_SPEC_SNOW, weather.snow && own_weather ? material.snow | tracks : 0u},
             {SURFACE_SPEC_FROST, 0u},
+            {SURFACE_SPEC_FALLS, own_weather ? weather.falls : 0u},
             {SURFACE_SPEC_PARALLAX, material.parallax},
             {SURFACE_SPEC_SECOND, material.second},
             {SURFACE_SPEC_LOOKS, draw.look != 0},
@@ -145,11 +146,12 @@ void add_decals(FrameGraph& graph, FrameTargets& targets, DecalTargets& own, con
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
     Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
-                      {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
+                      {SURFACE_FLOW, texels(*maps.flow_quads)},
+                      {SURFACE_WANDER, texels(*maps.snow_quads)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
-                      {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)},
+                      {SURFACE_SHELTER, texels(*depth_maps.sky_rows)},
                       {DECAL_DEPTH, sampled(*g.depth, targets.nearest)},
                       {DECAL_NORMALS, sampled(*g.normals, targets.nearest)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);

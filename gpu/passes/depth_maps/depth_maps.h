@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_PASSES_DEPTH_MAPS_DEPTH_MAPS_H
 
 #include <array>
+#include <vector>
 
 #include "gpu/device/graph.h"
 #include "gpu/frame/depth_view.h"
@@ -15,6 +16,7 @@ struct DepthMaps {
     std::unique_ptr<GpuImage> shadow;   ///< one layer a cascade
     std::unique_ptr<GpuImage> shelter;  ///< seen along the falling rain
     std::unique_ptr<GpuImage> sky;      ///< seen from directions over the upper hemisphere
+    std::unique_ptr<GpuBuffer> sky_rows;  ///< texels of those that were asked for, row by row (add_sky_rows)
     SamplerHandle compare;              ///< lit when at least as near as the map
     SamplerHandle plain;                ///< the depths themselves
     std::vector<ImageViewHandle> shadow_layers;
@@ -26,6 +28,7 @@ struct DepthMaps {
     std::array<bool, SHADOW_CASCADES> shadow_valid{};
     bool shelter_valid = false;
     bool sky_valid = false;
+    std::array<bool, SKY_DIRECTIONS> sky_rows_valid{};
 
     /// Draws all of them again with the next frame that asks.
     void forget()
@@ -76,6 +79,12 @@ void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenT
 //   writes   sky
 void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene,
                         SeenTriangles& triangles);
+
+// Copies maps of the sky into rows of texels, which a CPU reads several times as fast, unless they lie there.
+//
+//   reads    sky
+//   writes   sky_rows
+void add_sky_rows(FrameGraph& graph, DepthMaps& maps, const std::vector<int>& directions);
 
 // Depth of the scene along the falling rain.
 //

@@ -34,11 +34,12 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
     const std::string fragment = layer ? "transparent.frag" : fragment_shader(parts);
     Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
-                      {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
+                      {SURFACE_FLOW, texels(*maps.flow_quads)},
+                      {SURFACE_WANDER, texels(*maps.snow_quads)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
-                      {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)}};
+                      {SURFACE_SHELTER, texels(*depth_maps.sky_rows)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     if (layer) {
         bindings.push_back({SURFACE_LAYER_SOLID_DEPTH, sampled(*layer->solid_depth, targets.nearest)});
@@ -115,6 +116,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_SNOW,
                          weather.snow ? scene.materials()[draw->material].snow | tracks : 0u},
                         {SURFACE_SPEC_FROST, weather.frost},
+                        {SURFACE_SPEC_FALLS, weather.falls},
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
                         {SURFACE_SPEC_SECOND, scene.materials()[draw->material].second},
                         {SURFACE_SPEC_LOOKS, draw->look != 0},

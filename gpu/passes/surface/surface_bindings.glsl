@@ -20,13 +20,15 @@ layout(constant_id = SURFACE_SPEC_LAYER_ROLES_A) const uint LAYER_ROLES_A = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_B) const uint LAYER_ROLES_B = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_C) const uint LAYER_ROLES_C = 0u;
 layout(constant_id = SURFACE_SPEC_BESIDES) const uint BESIDES = 0u;
+layout(constant_id = SURFACE_SPEC_FALLS) const int FALLS = 1;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;
 
 layout(set = 0, binding = SURFACE_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(set = 0, binding = SURFACE_RIPPLE) uniform sampler2D ripple_map;
-layout(set = 0, binding = SURFACE_FLOW) uniform sampler2D flow_map;
+layout(set = 0, binding = SURFACE_FLOW) uniform usamplerBuffer flow_quads;
+layout(set = 0, binding = SURFACE_WANDER) uniform usamplerBuffer snow_quads;
 layout(set = 0, binding = SURFACE_SNOW) uniform sampler2D snow_map;
-layout(set = 0, binding = SURFACE_SHELTER) uniform sampler2DArrayShadow shelter_map;
+layout(set = 0, binding = SURFACE_SHELTER) uniform samplerBuffer shelter_rows;  // of the depth maps of the sky
 layout(set = 0, binding = SURFACE_PLACE_TABLE) uniform usamplerBuffer place_table;
 layout(set = 0, binding = SURFACE_PLACE_STATES) uniform samplerBuffer place_states;
 layout(set = 0, binding = SURFACE_PLACE_LABELS) uniform usamplerBuffer place_labels;

@@ -18,6 +18,7 @@
 #define SURFACE_SPEC_LAYER_ROLES_B 31
 #define SURFACE_SPEC_LAYER_ROLES_C 33
 #define SURFACE_SPEC_BESIDES 32  // BESIDES_... of the material
+#define SURFACE_SPEC_FALLS 34  // directions that rain and snow come from
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.
@@ -32,7 +33,8 @@
 #define SURFACE_PLACE_LEVELS 8
 #define SURFACE_TRACKS 9
 #define SURFACE_INSTANCE_LOOKS 10
-#define SURFACE_BINDINGS 11  // how many there are
+#define SURFACE_WANDER 11
+#define SURFACE_BINDINGS 12  // how many there are
 
 // A layer of what lets light through: what it lies between, behind those of all surfaces.
 #define SURFACE_LAYER_SOLID_DEPTH SURFACE_BINDINGS

@@ -5,6 +5,7 @@
 #include "formulas/weather/surface_weather.h"
 #include "gpu/passes/surface/surface_bindings.glsl"
 #include "gpu/passes/surface/surface_data.glsl"
+#include "gpu/passes/surface_maps/map_quads.glsl"
 
 struct Uv {
     vec2 at;

@@ -87,11 +87,9 @@ const float kStill = 1.0 / 1024.0;
 vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
 {
     const float t = material.flow_tiling;
-    const float texels = t * float(textureSize(flow_map, 0).x);
-    const float level =
-        floor(max(0.5 * log2(max(dot(p_dx, p_dx), dot(p_dy, p_dy)) * texels * texels + 1.0e-12), 0.0) + 0.5);
-    const vec2 first = textureLod(flow_map, p * t + phases.first * v, level).xy;
-    const vec2 second = textureLod(flow_map, p * t + phases.second * v, level).xy;
+    const int level = quad_level(frame.flow_size, p_dx * t, p_dy * t);
+    const vec2 first = quad_texel(flow_quads, frame.flow_size, p * t + phases.first * v, level);
+    const vec2 second = quad_texel(flow_quads, frame.flow_size, p * t + phases.second * v, level);
     return unpack_normal(mix(first, second, phases.blend), material.flow_normal_strength);
 }
 

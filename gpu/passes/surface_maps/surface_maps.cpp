@@ -41,6 +41,27 @@ void add_mips(FrameGraph& graph, const char* name, GpuImage& image)
         .record = [&image](VkCommandBuffer commands) { record_mips(commands, image); }});
 }
 
+std::unique_ptr<GpuBuffer> quads_of(MemoryArena& arena, const char* name, const GpuImage& image)
+{
+    const auto size = static_cast<VkDeviceSize>(image.width);
+    return arena.buffer({.name = name,
+                         .size = (size + std::max<VkDeviceSize>(size / 2, 1)) * size * 8,
+                         .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                         .texel_format = VK_FORMAT_R32G32_UINT});
+}
+
+void add_quads(FrameGraph& graph, const char* name, GpuImage& image, GpuBuffer& quads, const SamplerHandle& sampler)
+{
+    graph.add(ComputePass{.name = name,
+                          .shader = "map_quads.comp",
+                          .constants = {},
+                          .bindings = {{MAP_QUADS_MAP, sampled(image, sampler)},
+                                       {MAP_QUADS_QUADS, storage_buffer(quads)}},
+                          .push = PushBlock(shared::MapQuadsParams{image.width, mips_of(image.width)}),
+                          .groups = groups_over(image.width + std::max(image.width / 2, 1), image.width,
+                                                SURFACE_MAPS_TILE)});
+}
+
 // Texels of snow that nothing has pressed.
 std::vector<std::byte> untouched(std::size_t count)
 {
@@ -82,6 +103,8 @@ SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size,
                mips_of(size_of(given.water, kFlowSize)))),
       snow(map(arena, "snow", size_of(given.snow, kSnowSize),
                mips_of(size_of(given.snow, kSnowSize)))),
+      flow_quads(quads_of(arena, "flow_quads", *flow)),
+      snow_quads(quads_of(arena, "snow_quads", *snow)),
       ripple_size(size_of(given.drops, size)),
       drops_given(given.drops.size != 0),
       snow_given(given.snow.size != 0),
@@ -138,7 +161,10 @@ void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps)
                               .groups = groups_over(kSnowSize, kSnowSize, SURFACE_MAPS_TILE)});
     }
     add_mips(graph, "snow_mask_mips", *maps.snow);
-    if (maps.water_given) add_mips(graph, "flow_mips", *maps.flow);
+    add_quads(graph, "snow_mask_mips", *maps.snow, *maps.snow_quads, maps.trilinear);
+    if (!maps.water_given) return;
+    add_mips(graph, "flow_mips", *maps.flow);
+    add_quads(graph, "flow_mips", *maps.flow, *maps.flow_quads, maps.trilinear);
 }
 
 void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed)
@@ -164,6 +190,7 @@ void add_flow(FrameGraph& graph, SurfaceMaps& maps, float time_s)
                           .push = PushBlock(shared::FlowParams{time_s, 0.5f}),
                           .groups = groups_over(kFlowSize, kFlowSize, SURFACE_MAPS_TILE)});
     add_mips(graph, "flow_mips", *maps.flow);
+    add_quads(graph, "flow_mips", *maps.flow, *maps.flow_quads, maps.trilinear);
 }
 
 }  // namespace petrichor::gpu

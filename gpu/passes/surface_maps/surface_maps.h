@@ -15,6 +15,8 @@ struct SurfaceMaps {
     std::unique_ptr<GpuImage> ripple;         ///< normals of the rings at this moment
     std::unique_ptr<GpuImage> flow;           ///< normals of small waves at this moment
     std::unique_ptr<GpuImage> snow;           ///< normal xy, mask, smoothness
+    std::unique_ptr<GpuBuffer> flow_quads;    ///< red and green of `flow` (map_quads.glsl)
+    std::unique_ptr<GpuBuffer> snow_quads;    ///< likewise
     std::unique_ptr<GpuImage> tracks;         ///< as TrackMap; one texel of nothing without any
     TrackMap track_area;                      ///< without its texels
     SamplerHandle clamped;
@@ -31,7 +33,7 @@ private:
 
 // Draws the drops and the snow mask where none are given, and the mips of those that are; once.
 //
-//   writes   ripple_source, snow, flow
+//   writes   ripple_source, snow, flow and the quads of the latter two
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps);
 
 // Rings of rain drops at `time_s`; speed 1 is as photographed.
@@ -42,7 +44,7 @@ void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, 
 
 // Waves of flowing and wind-blown water at `time_s`, unless a map of them is given.
 //
-//   writes   flow, with mips
+//   writes   flow, with mips, and its quads
 void add_flow(FrameGraph& graph, SurfaceMaps& maps, float time_s);
 
 }  // namespace petrichor::gpu

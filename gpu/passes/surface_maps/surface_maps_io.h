@@ -11,6 +11,9 @@
 // ripple
 #define RIPPLE_SOURCE 0
 #define RIPPLE_TARGET 1
+// map_quads
+#define MAP_QUADS_MAP 0
+#define MAP_QUADS_QUADS 1
 
 SHARED_BEGIN
 
@@ -18,6 +21,11 @@ struct RippleParams {
     float rain;
     float time_s;
     float speed;
+};
+
+struct MapQuadsParams {
+    int size;
+    int levels;
 };
 
 struct FlowParams {

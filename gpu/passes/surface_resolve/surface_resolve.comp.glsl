@@ -7,6 +7,7 @@
 
 layout(constant_id = RESOLVE_SPEC_WEATHER) const uint SURFACE_WEATHER = 1u;
 layout(constant_id = RESOLVE_SPEC_EMISSION) const uint SURFACE_EMISSION = 1u;
+layout(constant_id = RESOLVE_SPEC_PAYLOAD) const uint SURFACE_PAYLOAD = 1u;
 layout(constant_id = RESOLVE_SPEC_BAKED) const uint SURFACE_BAKED = 0u;
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
@@ -167,7 +168,7 @@ void main()
     const bool EMISSION = SURFACE_EMISSION != 0u;
     const bool BAKED = SURFACE_BAKED != 0u;
 #define ROW(name, location_, format_, when_, meaning_) \
-    if (when_) imageStore(out_##name, pixel, code.name);
+    if (when_ && (SURFACE_PAYLOAD != 0u || location_ != GBUFFER_PAYLOAD)) imageStore(out_##name, pixel, code.name);
     GBUFFER_TABLE(ROW)
 #undef ROW
     if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares));

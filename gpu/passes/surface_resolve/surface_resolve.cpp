@@ -39,6 +39,23 @@ VkDeviceSize tiles_across(int pixels)
     return static_cast<VkDeviceSize>((pixels + RESOLVE_TILE - 1) / RESOLVE_TILE);
 }
 
+// What most materials have is cleared, in place of a store a pixel: no light of its own and the reflectance of glass.
+void clear_targets(FrameGraph& graph, FrameTargets& targets, const GBufferParts& parts)
+{
+    std::vector<std::pair<GpuImage*, VkClearColorValue>> clears{
+        {targets.gbuffer.payload.get(), {{0.2f, 0.2f, 0.2f, 0.0f}}}};
+    if (parts.emission) clears.push_back({targets.gbuffer.emission.get(), {{0.0f, 0.0f, 0.0f, 1.0f}}});
+    std::vector<Transfer> transfers;
+    for (const auto& [image, value] : clears) transfers.push_back({.image = image, .use = Use::TransferTarget});
+    graph.add(TransferPass{"surface", std::move(transfers), [clears](VkCommandBuffer commands) {
+                               for (const auto& [image, value] : clears) {
+                                   const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+                                   vkCmdClearColorImage(commands, image->image.get(),
+                                                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &all);
+                               }
+                           }});
+}
+
 }  // namespace
 
 ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, const GpuScene& scene,
@@ -157,11 +174,12 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
 
     Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
-                      {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
+                      {SURFACE_FLOW, texels(*maps.flow_quads)},
+                      {SURFACE_WANDER, texels(*maps.snow_quads)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
-                      {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)},
+                      {SURFACE_SHELTER, texels(*depth_maps.sky_rows)},
                       {RESOLVE_IDS, texels(id_rows)},
                       {RESOLVE_VERTICES, texels(scene.vertex_texels())},
                       {RESOLVE_INDICES, texels(scene.index_texels())},
@@ -178,13 +196,18 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     const std::uint32_t tracks = (maps.track_area.width > 0 ? SNOW_TRACKS : 0u) |
                                  (scene.overlaid() ? SNOW_BODY : 0u);
     const std::uint32_t shares = scene.layer_shares() ? BESIDES_SHARES : 0u;
-    const auto variant = [parts, weather, tracks, shares](const GpuMaterial& material) {
+    const bool any_emission = parts.emission;
+    const auto glows = [any_emission](const GpuMaterial& material) {
+        return any_emission && (material.glows || material.own_surface != 0);
+    };
+    const auto variant = [parts, weather, tracks, shares, glows](const GpuMaterial& material) {
         return std::vector<Specialization>{
             {SURFACE_SPEC_HOLES, 0},
             {SURFACE_SPEC_SLOTS, material.slots},
             {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
             {SURFACE_SPEC_SNOW, weather.snow ? material.snow | tracks : 0u},
             {SURFACE_SPEC_FROST, weather.frost},
+            {SURFACE_SPEC_FALLS, weather.falls},
             {SURFACE_SPEC_PARALLAX, material.parallax},
             {SURFACE_SPEC_SECOND, material.second},
             {SURFACE_SPEC_LOOKS, material.looks},
@@ -195,9 +218,11 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_BESIDES, material.besides | shares},
             {SURFACE_SPEC_PLACE, weather.place},
             {RESOLVE_SPEC_WEATHER, parts.weather},
-            {RESOLVE_SPEC_EMISSION, parts.emission},
+            {RESOLVE_SPEC_EMISSION, glows(material)},
+            {RESOLVE_SPEC_PAYLOAD, (material.besides & BESIDES_AS_CLEARED) == 0},
             {RESOLVE_SPEC_BAKED, parts.baked}};
     };
+    clear_targets(graph, targets, parts);
     const char* shader = scene.own_surfaces().any() ? kOwnResolveShader : kResolveShader;
     DispatchListPass pass{.name = "surface",
                           .bindings = std::move(bindings),

@@ -42,6 +42,7 @@
 #define RESOLVE_SPEC_WEATHER 5
 #define RESOLVE_SPEC_EMISSION 6
 #define RESOLVE_SPEC_BAKED 7
+#define RESOLVE_SPEC_PAYLOAD 35  // 0: as the target is cleared
 
 SHARED_BEGIN
 
