@@ -355,7 +355,6 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     variant.fog = false;
     variant.shares = nullptr;
     variant.background = false;
-    variant.mirrors_told = false;
     variant.parts = &r.parts->or_none(r.parts->layer);
     variant.pixels = Pixels::All;
     const auto draw = [&](const SurfaceLayer& between) {
@@ -528,14 +527,13 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
         variant.parts = &lit_parts;
         variant.pixels = pixels;
-        variant.mirrors_told = r.parts->label && i == 0;
         add_background(graph, *r.targets, *r.sky, constants, variant);
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, *r.probes, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, &r.parts->sum_or_none(),
-                             variant.mirrors_told, variant.mirrors_picture,
+                             r.parts->label && i == 0, variant.mirrors_picture,
                              variant.emission && r.lights->glows},
                             pixels);
         }

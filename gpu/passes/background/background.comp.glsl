@@ -17,7 +17,6 @@ layout(constant_id = BACKGROUND_SPEC_NIGHT) const uint NIGHT = 1u;
 layout(constant_id = BACKGROUND_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = BACKGROUND_SPEC_PARTS) const uint PARTS = 0u;
 layout(constant_id = BACKGROUND_SPEC_MIRRORED) const uint MIRRORED = 1u;
-layout(constant_id = BACKGROUND_SPEC_MIRRORS_TOLD) const uint MIRRORS_TOLD = 1u;
 layout(binding = BACKGROUND_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = BACKGROUND_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = BACKGROUND_SKY) uniform samplerCube sky_map;
@@ -79,7 +78,9 @@ void main()
         parts.of[PART_BACKGROUND] = result.rgb;
         store_parts(parts, texel);
     }
-    if (MIRRORED != 0u) imageStore(radiance_out, texel, result);
-    if (MIRRORS_TOLD != 0u) imageStore(mirror_weight, texel, vec4(0.0));
+    if (MIRRORED != 0u) {
+        imageStore(radiance_out, texel, result);
+        imageStore(mirror_weight, texel, vec4(0.0));
+    }
     imageStore(accumulated, texel, frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
 }

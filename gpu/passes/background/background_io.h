@@ -19,6 +19,5 @@
 #define BACKGROUND_SPEC_FOG 2
 #define BACKGROUND_SPEC_PARTS 3    // the light is written taken apart, too
 #define BACKGROUND_SPEC_MIRRORED 4 // surfaces may mirror it
-#define BACKGROUND_SPEC_MIRRORS_TOLD 5  // 1: that it mirrors nothing is written
 
 #endif

@@ -55,7 +55,6 @@ layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
 layout(constant_id = LIGHTING_SPEC_GRAIN) const uint GRAIN = 0u;
 layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
-layout(constant_id = LIGHTING_SPEC_MIRRORS_TOLD) const uint MIRRORS_TOLD = 1u;
 layout(constant_id = LIGHTING_SPEC_SPARKLE) const uint SPARKLE = 0u;
 layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
 layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
@@ -562,15 +561,10 @@ void main()
     }
     const vec4 result = vec4(min(radiance, vec3(60000.0)), 1.0);
     if (IMAGE_BASED_LIGHT != 0u) {
-        const bool mirrors = mirror.r + mirror.g + mirror.b > 0.0;
-        // Before all stores: a count that all share waits for those that are on their way.
-        list_mirror(mirrors, texel);
-        if (PICTURE != 0u) imageStore(radiance_out, texel, result);
-        // A CPU stores texel by texel, and skips those that are not asked for.
-        if (mirrors || MIRRORS_TOLD != 0u) {
-            imageStore(mirror_weight, texel, mirror);
-            imageStore(mirror_shape, texel, shape);
-        }
+        imageStore(radiance_out, texel, result);
+        imageStore(mirror_weight, texel, mirror);
+        imageStore(mirror_shape, texel, shape);
+        list_mirror(mirror.r + mirror.g + mirror.b > 0.0, texel);
     }
     imageStore(accumulated, texel, frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
 }

@@ -39,7 +39,6 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_HORIZON, variant.horizon},
                       {LIGHTING_SPEC_GRAIN, variant.grain},
                       {LIGHTING_SPEC_SNOW_SCATTER, variant.snow_scatter},
-                      {LIGHTING_SPEC_MIRRORS_TOLD, variant.mirrors_told},
                       {LIGHTING_SPEC_SPARKLE, variant.sparkle},
                       {LIGHTING_SPEC_PARTS, variant.split},
                       {LIGHTING_SPEC_FILM, variant.film},
