@@ -12,6 +12,10 @@ SHARED_BEGIN
 // off by little would move it by a lot.
 SHARED_CONST float kShadowPlaneTangent = 12.0f;
 
+// Less than half a degree from the light's way a surface is lifted no further: it would get past what shadows it, and its
+// normal map would show it in full sunlight.
+SHARED_CONST float kShadowMostTangent = 114.0f;
+
 // Texels along the light's way that a surface is lifted before it is compared: what stands on it, a wall in a corner, is not
 // to darken its foot, and what is steeper than the plane that is followed is not to shadow itself. facing: cosine
 // between the surface and the light. radius: texels, of the filter with the four around its farthest place.
@@ -19,7 +23,7 @@ SHARED_FN float shadow_lift_texels(float facing, float least, float radius)
 {
     const float c = max(abs(facing), 1.0e-3f);
     const float tangent = sqrt(max(1.0f - c * c, 0.0f)) / c;
-    return least + radius * max(tangent - kShadowPlaneTangent, 0.0f);
+    return least + radius * max(min(tangent, kShadowMostTangent) - kShadowPlaneTangent, 0.0f);
 }
 
 // Change of a parallel map's depth per unit of u and of v along a plane with the unit normal n. u, v, depth: the map's

@@ -1,6 +1,8 @@
 // Planes in depth maps: what a map would hold of them, by the matrices that maps are drawn with.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "formulas/light/shadow_plane.h"
@@ -70,6 +72,24 @@ TEST(ShadowPlane, IsBoundedWhereTheLightGrazes)
         EXPECT_LE(glm::length(lamp), 0.5f * 12.1f);
     }
     EXPECT_EQ(shadow_plane_slope(vec3(0, 1, 0), u, v, depth), vec2(0.0f)) << "seen from straight above";
+}
+
+TEST(ShadowPlane, LiftsGrowTowardsGrazingLightAndEnd)
+{
+    constexpr float kRadius = 2.5f, kLeast = 1.15f;
+    float last = kLeast;
+    for (float facing = 1.0f; facing > 1.0e-4f; facing *= 0.93f) {
+        const float lift = shadow_lift_texels(facing, kLeast, kRadius);
+        EXPECT_GE(lift, last);
+        EXPECT_EQ(lift, shadow_lift_texels(-facing, kLeast, kRadius));
+        // What the plane that is followed leaves of its slope over the filter, down to half a degree.
+        const float tangent = std::sqrt(1.0f - facing * facing) / facing;
+        if (tangent < 113.0f) {
+            EXPECT_NEAR(lift, kLeast + kRadius * std::max(tangent - kShadowPlaneTangent, 0.0f), 1e-3f * lift);
+        }
+        last = lift;
+    }
+    EXPECT_EQ(shadow_lift_texels(0.0f, kLeast, kRadius), kLeast + kRadius * (kShadowMostTangent - kShadowPlaneTangent));
 }
 
 TEST(ShadowPlane, WeightsAreThoseOfABilinearFilter)
