@@ -41,6 +41,22 @@ vec2 one_as_two(float both)
     return vec2(code >> 8, code & 255u) / 255.0;
 }
 
+// What the target of the weather holds: film, water, snow and frost, and the number of the material.
+vec2 stores_code(vec4 weather)
+{
+    return vec2(two_in_one(weather.x, weather.y), two_in_one(weather.z, weather.w));
+}
+
+vec4 stores_of(vec4 code)
+{
+    return vec4(one_as_two(code.z), one_as_two(code.w));
+}
+
+uint material_of(vec4 code)
+{
+    return uint(code.x * 65535.0 + 0.5);
+}
+
 // As the targets hold it.
 struct GBufferCode {
 #define ROW(name, location_, format_, when_, meaning_) vec4 name;
@@ -58,11 +74,10 @@ GBufferCode encode_gbuffer(GBufferTexel texel, uint flags)
     code.material = vec4(texel.roughness, texel.metallic, texel.porosity,
                          float(texel.model) / 255.0);
     code.payload = vec4(sqrt(clamp(texel.f0, vec3(0.0), vec3(1.0))), texel.tangent);  // 0.04 is exact
-    code.weather = texel.weather;
     const float snow = (flags & FRAME_TWO_SETS) != 0u
                            ? two_in_one(texel.snow_smoothness, texel.first_share)
                            : texel.snow_smoothness;
-    code.identity = vec4(float(texel.material) / 65535.0, snow, 0.0, 0.0);
+    code.weather = vec4(float(texel.material) / 65535.0, snow, stores_code(texel.weather));
     code.emission = vec4(texel.emission, texel.body);
     code.baked = vec4(texel.baked, baked_shadow_code(texel.baked_shadow, texel.baked_sky));
     return code;
@@ -81,12 +96,12 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint flags)
     texel.model = uint(code.material.w * 255.0 + 0.5);
     texel.f0 = code.payload.rgb * code.payload.rgb;
     texel.tangent = code.payload.a;
-    texel.weather = code.weather;
-    texel.material = uint(code.identity.x * 65535.0 + 0.5);
-    texel.snow_smoothness = code.identity.y;
+    texel.weather = stores_of(code.weather);
+    texel.material = material_of(code.weather);
+    texel.snow_smoothness = code.weather.y;
     texel.first_share = 1.0;
     if ((flags & FRAME_TWO_SETS) != 0u) {
-        const vec2 both = one_as_two(code.identity.y);
+        const vec2 both = one_as_two(code.weather.y);
         texel.snow_smoothness = both.x;
         texel.first_share = both.y;
     }

@@ -20,17 +20,17 @@
         "root of the reflectance at normal incidence, not of metal; direction of the tangent")
 #define GBUFFER_PAYLOAD 3  // its location
 #define GBUFFER_WEATHER(ROW)                                                                 \
-    ROW(weather, 4, R8G8B8A8_UNORM, WEATHER, "film, standing water, snow, frost; each 0..1") \
-    ROW(identity, 5, R16G16_UNORM, WEATHER, "number of the material; smoothness of the snow, with two sets the share of the first")
-#define GBUFFER_EMISSION(ROW) ROW(emission, 6, R16G16B16A16_SFLOAT, EMISSION, "radiance")
+    ROW(weather, 4, R16G16B16A16_UNORM, WEATHER,                                             \
+        "number of the material; smoothness of the snow, with two sets the share of the first; in 8 bits each film and standing water, snow and frost")
+#define GBUFFER_EMISSION(ROW) ROW(emission, 5, R16G16B16A16_SFLOAT, EMISSION, "radiance")
 #define GBUFFER_BAKED(ROW)                       \
-    ROW(baked, 7, R16G16B16A16_SFLOAT, BAKED,     \
+    ROW(baked, 6, R16G16B16A16_SFLOAT, BAKED,     \
         "light map: irradiance divided by pi; share of skylight that it holds already, or codes of that and of shadows")
 
 #define GBUFFER_TABLE(ROW) \
     GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW) GBUFFER_BAKED(ROW)
 
 // Bindings of a pass that reads the G-buffer: depth at the first, the targets behind it.
-#define GBUFFER_BINDINGS 9
+#define GBUFFER_BINDINGS 8
 
 #endif

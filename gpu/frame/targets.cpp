@@ -32,7 +32,14 @@ constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 VkDeviceSize texel_bytes(VkFormat format)
 {
-    return format == VK_FORMAT_R16G16B16A16_SNORM || format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 4;
+    switch (format) {
+        case VK_FORMAT_R16G16B16A16_SNORM:
+        case VK_FORMAT_R16G16B16A16_UNORM:
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+            return 8;
+        default:
+            return 4;
+    }
 }
 
 int divide_up(int value, int by)

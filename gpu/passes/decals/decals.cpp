@@ -183,7 +183,6 @@ void add_decals(FrameGraph& graph, FrameTargets& targets, DecalTargets& own, con
                      {DECALS_OVER_LAID + 3, sampled(*own.weather, nearest)},
                      {DECALS_OVER_LAID + 4, sampled(*own.cover, nearest)},
                      {DECALS_OVER_LOOKS, texels(scene.material_looks())},
-                     {DECALS_OVER_IDENTITY, sampled(*g.identity, nearest)},
                      {DECALS_OVER_COLOR, storage(*g.color)},
                      {DECALS_OVER_NORMALS, storage(*g.normals)},
                      {DECALS_OVER_MATERIAL, storage(*g.material)},

@@ -29,11 +29,10 @@
 #define DECALS_OVER_FRAME 0
 #define DECALS_OVER_LAID 1  // the targets above but the emission
 #define DECALS_OVER_LOOKS 6
-#define DECALS_OVER_IDENTITY 7
-#define DECALS_OVER_COLOR 8
-#define DECALS_OVER_NORMALS 9
-#define DECALS_OVER_MATERIAL 10
-#define DECALS_OVER_WEATHER 11
+#define DECALS_OVER_COLOR 7
+#define DECALS_OVER_NORMALS 8
+#define DECALS_OVER_MATERIAL 9
+#define DECALS_OVER_WEATHER 10
 #define DECALS_OVER_SPEC_WEATHER 0
 #define DECALS_OVER_SPEC_REFUSED 1  // 1: some material takes no decals
 #define DECALS_OVER_TILE 8

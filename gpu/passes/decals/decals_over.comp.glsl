@@ -18,11 +18,10 @@ layout(binding = DECALS_OVER_LAID + 2) uniform sampler2D laid_matter;
 layout(binding = DECALS_OVER_LAID + 3) uniform sampler2D laid_weather;
 layout(binding = DECALS_OVER_LAID + 4) uniform sampler2D laid_cover;
 layout(binding = DECALS_OVER_LOOKS) uniform samplerBuffer material_looks;
-layout(binding = DECALS_OVER_IDENTITY) uniform sampler2D identity_map;
 layout(binding = DECALS_OVER_COLOR, rgba8) uniform image2D color_map;
 layout(binding = DECALS_OVER_NORMALS, rgba16_snorm) uniform image2D normals_map;
 layout(binding = DECALS_OVER_MATERIAL, rgba8) uniform image2D material_map;
-layout(binding = DECALS_OVER_WEATHER, rgba8) uniform image2D weather_map;
+layout(binding = DECALS_OVER_WEATHER, rgba16) uniform image2D weather_map;
 
 void main()
 {
@@ -34,7 +33,7 @@ void main()
     const vec4 weather = texelFetch(laid_weather, texel, 0);
     if (color.a + normal.a + matter.a + weather.a <= 0.0) return;
     if (REFUSED != 0u) {
-        const int number = int(texelFetch(identity_map, texel, 0).x * 65535.0 + 0.5);
+        const int number = int(material_of(imageLoad(weather_map, texel)));
         if (texelFetch(material_looks, number * MATERIAL_LOOK_TEXELS + 3).y < 0.5) return;
     }
     vec4 code = imageLoad(color_map, texel);
@@ -59,8 +58,10 @@ void main()
         imageStore(material_map, texel, dry);
     }
     if (WEATHER != 0u && weather.a > 0.0) {
-        vec4 lies = imageLoad(weather_map, texel);
+        vec4 held = imageLoad(weather_map, texel);
+        vec4 lies = stores_of(held);
         lies.xyz = lies.xyz * (1.0 - weather.a) + weather.xyz;
-        imageStore(weather_map, texel, lies);
+        held.zw = stores_code(lies);
+        imageStore(weather_map, texel, held);
     }
 }

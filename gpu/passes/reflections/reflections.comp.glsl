@@ -22,7 +22,7 @@ layout(binding = REFLECTIONS_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = REFLECTIONS_PROBES) uniform samplerBuffer probe_rows;
 layout(binding = REFLECTIONS_PROBE_LIGHT) uniform samplerBuffer probe_light;
 layout(binding = REFLECTIONS_EMISSION) uniform samplerBuffer emission_rows;
-layout(binding = REFLECTIONS_IDENTITY) uniform samplerBuffer identity_rows;
+layout(binding = REFLECTIONS_WEATHER) uniform samplerBuffer weather_rows;
 layout(binding = REFLECTIONS_PARTS, rgba32f) uniform image2DArray light_parts;
 layout(binding = REFLECTIONS_LABEL, rgba32f) uniform writeonly image2DArray label_image;
 layout(constant_id = REFLECTIONS_SPEC_PROBES) const uint PROBES = 0;
@@ -226,7 +226,7 @@ vec2 reflection_label(vec3 weight, Hit hit, float probed)
     if (shares.x >= max(shares.y, shares.z)) {
         const ivec2 at = clamp(ivec2(hit.pixel), ivec2(0), frame.size - 1);
         if (texelFetch(depth_rows, row_texel(at, frame.size)).r > 0.0) {
-            return vec2(floor(texelFetch(identity_rows, row_texel(at, frame.size)).x * 65535.0 + 0.5), strength * shares.x);
+            return vec2(float(material_of(texelFetch(weather_rows, row_texel(at, frame.size)))), strength * shares.x);
         }
         return vec2(REFLECTS_SKY, strength * (shares.x + shares.z));
     }

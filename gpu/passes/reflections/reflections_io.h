@@ -14,7 +14,7 @@ SHARED_CONST float kWideRoughness = 0.3f;
 SHARED_END
 
 #define REFLECTIONS_FRAME 0
-#define REFLECTIONS_DEPTH_ROWS 1  // of the G-buffer, as identity and emission
+#define REFLECTIONS_DEPTH_ROWS 1  // of the G-buffer, as weather and emission
 #define REFLECTIONS_RADIANCE 2
 #define REFLECTIONS_MIRROR_WEIGHT 3
 #define REFLECTIONS_MIRROR_SHAPE 4
@@ -24,7 +24,7 @@ SHARED_END
 #define REFLECTIONS_PROBE_LIGHT 8   // levels of each probe, one after the other
 
 #define REFLECTIONS_PIXELS 9        // gpu/frame/pixel_list_io.h: those that mirror
-#define REFLECTIONS_IDENTITY 10
+#define REFLECTIONS_WEATHER 10
 #define REFLECTIONS_PARTS 11        // gpu/outputs/light_parts_io.h
 #define REFLECTIONS_LABEL 12        // the same image, or that of all samples
 

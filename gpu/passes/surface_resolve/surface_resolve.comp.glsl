@@ -19,7 +19,7 @@ layout(set = 0, binding = RESOLVE_DRAWS) uniform usamplerBuffer draws;
 layout(set = 0, binding = RESOLVE_PIXELS) uniform usamplerBuffer pixels;
 layout(set = 0, binding = RESOLVE_COUNTS) uniform usamplerBuffer ends;
 #define IMAGE_R8G8B8A8_UNORM rgba8
-#define IMAGE_R16G16_UNORM rg16
+#define IMAGE_R16G16B16A16_UNORM rgba16
 #define IMAGE_R16G16B16A16_SNORM rgba16_snorm
 #define IMAGE_R16G16B16A16_SFLOAT rgba16f
 #define ROW(name, location_, format_, when_, meaning_)                     \

@@ -95,7 +95,6 @@ void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTarget
                          {TRANSPARENT_OVER_NORMALS, sampled(*layer.gbuffer.normals, nearest)},
                          {TRANSPARENT_OVER_EMISSION, sampled(*layer.gbuffer.emission, nearest)},
                          {TRANSPARENT_OVER_WEATHER, sampled(*layer.gbuffer.weather, nearest)},
-                         {TRANSPARENT_OVER_IDENTITY, sampled(*layer.gbuffer.identity, nearest)},
                          {TRANSPARENT_OVER_LOOKS, texels(scene.material_looks())},
                          {TRANSPARENT_OVER_SOLID, sampled(*own.solid, nearest)},
                          {TRANSPARENT_OVER_SOLID_DEPTH, sampled(*targets.gbuffer.depth, nearest)},

@@ -25,7 +25,6 @@ layout(binding = TRANSPARENT_OVER_NORMALS) uniform sampler2D normals_map;
 layout(constant_id = TRANSPARENT_OVER_SPEC_BODY) const uint BODY = 0u;
 layout(binding = TRANSPARENT_OVER_EMISSION) uniform sampler2D emission_map;
 layout(binding = TRANSPARENT_OVER_WEATHER) uniform sampler2D weather_map;
-layout(binding = TRANSPARENT_OVER_IDENTITY) uniform sampler2D identity_map;
 layout(binding = TRANSPARENT_OVER_LOOKS) uniform samplerBuffer material_looks;
 layout(binding = TRANSPARENT_OVER_SOLID) uniform sampler2D solid_map;
 layout(binding = TRANSPARENT_OVER_SOLID_DEPTH) uniform sampler2D solid_depth;
@@ -146,7 +145,8 @@ void main()
             own_share *= kept;
         }
         sum.rgb += rest * light;
-        const uint material = uint(texelFetch(identity_map, texel, 0).x * 65535.0 + 0.5);
+        const vec4 held = texelFetch(weather_map, texel, 0);
+        const uint material = material_of(held);
         vec4 look = texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 1);
         if (BODY != 0u) look.w *= texelFetch(emission_map, texel, 0).a;
         const vec4 more = texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 3);
@@ -155,7 +155,7 @@ void main()
             texelFetch(material_map, texel, 0).x,
             more.x);
         const bool bends = look.y > 0.0 && (look.w > 0.0 || roughness > kClear);
-        const vec4 weather = texelFetch(weather_map, texel, 0);
+        const vec4 weather = stores_of(held);
         const float drop = smooth_edge(0.08, 0.55, weather.y) * (1.0 - weather.z);
         if (bends || drop > 0.02) {
             const vec4 normals = texelFetch(normals_map, texel, 0);
