@@ -193,8 +193,12 @@ TEST(WaterCover, APondHasAShoreAsRaggedAsItsGround)
             EXPECT_GE(c.anywhere, before);
             EXPECT_LE(c.deep, c.anywhere + 1e-6f) << "what is deep stands";
             EXPECT_LE(c.anywhere, pond_cover(depth, 0.0f).anywhere) << "hollows of the relief fill first";
-            if (depth <= stands) EXPECT_EQ(c.anywhere, 0.0f) << "stones stand out";
-            if (depth >= stands + 0.0095f) EXPECT_EQ(c.deep, 1.0f) << "and drown";
+            if (depth <= stands) {
+                EXPECT_EQ(c.anywhere, 0.0f) << "stones stand out";
+            }
+            if (depth >= stands + 0.0095f) {
+                EXPECT_EQ(c.deep, 1.0f) << "and drown";
+            }
             before = c.anywhere;
         }
     }
