@@ -1,11 +1,10 @@
 #ifndef PETRICHOR_GPU_FRAME_DEPTH_VIEW_H
 #define PETRICHOR_GPU_FRAME_DEPTH_VIEW_H
 
-#include <array>
-#include <optional>
 #include <span>
 
 #include "gpu/frame/frame_io.h"
+#include "gpu/upload/asked_part.h"
 #include "gpu/upload/scene_names.h"
 
 namespace petrichor::gpu {
@@ -13,19 +12,6 @@ namespace petrichor::gpu {
 inline constexpr int kShadowMapSize = 2048;   ///< texels a side of a cascade
 inline constexpr int kShelterMapSize = 2048;  ///< of the map along the falling rain
 inline constexpr int kSkyMapSize = SKY_MAP_SIZE;      ///< of each direction of the sky
-
-/// Where a map is asked: what lies outside of it throws its shadow on nothing that is seen.
-struct AskedPart {
-    std::array<glm::vec3, 8> lines{};  ///< inside of each a x + b y + c >= 0, x and y of clip space
-    int count = 0;                     ///< 0: everywhere
-    float least_z = -1.0e30f;          ///< of clip space: the farthest that asks
-
-    bool operator==(const AskedPart&) const = default;
-};
-
-/// The part without what all of a sphere is inside of; nothing when the sphere is outside.
-std::optional<AskedPart> asked_of(const AskedPart& asked, const glm::mat4& clip_from_world, const glm::vec3& centre_m,
-                                  float radius_m);
 
 /// One view of the scene from far away: along the sun (a shadow cascade) or along the falling rain.
 struct DepthView {

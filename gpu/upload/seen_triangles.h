@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "gpu/frame/depth_view.h"
+#include "gpu/upload/asked_part.h"
 #include "gpu/upload/gpu_scene.h"
 #include "gpu/upload/instance_places.h"
 

@@ -29,8 +29,9 @@ Frame frame_of(const glm::vec3& eye, const glm::vec3& target, SurfacePath path)
     frame.settings.samples = 1;
     frame.settings.surface_path = path;
     frame.settings.aovs = {"normal", "position"};
-    // The maps of shadows are laid around all of a scene, which is more of one that moves.
+    // The maps of shadows are laid around all of a scene, which is more of one that moves; fog lies on its lowest point.
     frame.settings.shadows = false;
+    frame.fog.mode = FogMode::Off;
     frame.settings.ambient_occlusion = false;
     return frame;
 }

@@ -200,7 +200,8 @@ TEST_F(RendererTest, EveryNumberOfTheLookChangesThePicture)
     stone.weather.snow_detail_strength = 1.0f;
     stone.base_color_texture.texture =
         0;  // what lies below the rings must differ from place to place
-    Scene scene = scene_of({ground()}, {stone});
+    // Of two hectares, so that its colour varies over the land.
+    Scene scene = scene_of({ground(), quad({-100, 0, -10}, {200, 0, 0}, {0, 0, -200})}, {stone});
     scene.textures.resize(1);
     Texture stripes;
     stripes.width = stripes.height = 64;
