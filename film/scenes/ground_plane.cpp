@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "formulas/color/srgb.h"
@@ -19,20 +20,24 @@ using glm::vec2;
 using glm::vec3;
 
 constexpr int kCells = 64;         // a side, of the look from above
+constexpr int kHiddenCells = 192;  // likewise, of what hides ground
+constexpr int kHalvings = 3;       // of triangles that are hidden in part
 constexpr double kFilled = 0.8;    // of them, of a scene with ground
 constexpr int kTexels = 1024;      // a side, of the asphalt
 constexpr int kSegments = 128;
 constexpr float kNextRing = 1.09f;  // the radius of a ring of vertices over that of the one inside
 constexpr float kInnerRing = 0.06f, kFineRings = 40.0f, kOutermostRing = 300.0f;  // times the scene's size
+constexpr float kClose = 0.025f;   // of the scene's size: ground so close below it is left out where it is hidden
 const vec3 kColor(0.222f, 0.224f, 0.226f);
 
-// Marks the cells that a triangle covers when seen from above.
-void mark(std::vector<bool>& cells, const std::array<vec2, 3>& t)
+// Calls back with each of `cells` times `cells` cells that a triangle covers when seen from above.
+template <class Covers>
+void mark(const std::array<vec2, 3>& t, int cells, const Covers& covers)
 {
     const vec2 low = glm::min(glm::min(t[0], t[1]), t[2]);
     const vec2 high = glm::max(glm::max(t[0], t[1]), t[2]);
-    const auto clamped = [](float v) {
-        return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(kCells - 1)));
+    const auto clamped = [&](float v) {
+        return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(cells - 1)));
     };
     const auto cross = [](vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; };
     for (int z = clamped(low.y); z <= clamped(high.y); ++z) {
@@ -42,13 +47,95 @@ void mark(std::vector<bool>& cells, const std::array<vec2, 3>& t)
             const float b = cross(t[2] - t[1], p - t[1]);
             const float c = cross(t[0] - t[2], p - t[2]);
             if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))
-                cells[static_cast<std::size_t>(z * kCells + x)] = true;
+                covers(static_cast<std::size_t>(z * cells + x));
         }
     }
     // Triangles smaller than a cell may miss all centres.
     const vec2 middle = (t[0] + t[1] + t[2]) / 3.0f;
-    cells[static_cast<std::size_t>(clamped(middle.y) * kCells + clamped(middle.x))] = true;
+    covers(static_cast<std::size_t>(clamped(middle.y) * cells + clamped(middle.x)));
 }
+
+constexpr float kNothing = std::numeric_limits<float>::max();
+
+// How a scene looks from above: of each cell of the rectangle around it the height up to which what faces up there comes
+// down, of all triangles in it, kNothing where there is none.
+struct FromAbove {
+    int cells;        // a side
+    vec2 low, scale;  // cell = (xz - low) * scale
+    std::vector<float> height_m;
+
+    FromAbove(const scene::Scene& scene, const scene::Bounds& content, int cells_a_side)
+        : cells(cells_a_side),
+          low(content.low.x, content.low.z),
+          height_m(static_cast<std::size_t>(cells * cells), kNothing)
+    {
+        const vec3 size = content.high - content.low;
+        scale = static_cast<float>(cells) /
+                glm::max(vec2(size.x, size.z), vec2(1e-6f * std::max(size.x, size.z)));
+        for (const scene::Instance& instance : scene.instances)
+            for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives)
+                add(instance, primitive);
+    }
+    vec2 cell(const vec3& p) const { return (vec2(p.x, p.z) - low) * scale; }
+
+private:
+    void add(const scene::Instance& instance, const scene::Primitive& primitive)
+    {
+        std::vector<vec3> world;
+        world.reserve(primitive.positions.size());
+        for (const vec3& p : primitive.positions)
+            world.emplace_back(instance.to_world * glm::vec4(p, 1.0f));
+        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            const vec3& a = world[primitive.indices[i]];
+            const vec3& b = world[primitive.indices[i + 1]];
+            const vec3& c = world[primitive.indices[i + 2]];
+            const vec3 face = glm::cross(b - a, c - a);
+            // Either way up: what winding says is often wrong.
+            if (!(std::abs(face.y) > 0.6f * glm::length(face))) continue;
+            const std::array<vec2, 3> t{cell(a), cell(b), cell(c)};
+            const auto outside = [&](int k) {
+                const auto end = static_cast<float>(cells);
+                return (t[0][k] < 0 && t[1][k] < 0 && t[2][k] < 0) ||
+                       (t[0][k] > end && t[1][k] > end && t[2][k] > end);
+            };
+            if (outside(0) || outside(1)) continue;
+            const float lowest = std::min(a.y, std::min(b.y, c.y));
+            mark(t, cells, [&](std::size_t at) { height_m[at] = std::min(height_m[at], lowest); });
+        }
+    }
+};
+
+// Where level ground is hidden by what lies on it: nobody sees it there, and patches could not tell it from that.
+class HiddenGround {
+public:
+    // Hidden is a cell when it and all around it come down to `close_m` over the ground.
+    HiddenGround(const scene::Scene& scene, const scene::Bounds& content, float ground_m, float close_m)
+        : seen_(scene, content, kHiddenCells)
+    {
+        const auto lies = [&](int x, int z) {
+            if (x < 0 || z < 0 || x >= kHiddenCells || z >= kHiddenCells) return false;
+            return seen_.height_m[static_cast<std::size_t>(z * kHiddenCells + x)] - ground_m < close_m;
+        };
+        for (int z = 0; z < kHiddenCells; ++z) {
+            for (int x = 0; x < kHiddenCells; ++x) {
+                bool all = true;
+                for (int k = 0; k < 9; ++k) all = all && lies(x + k % 3 - 1, z + k / 3 - 1);
+                hidden_.push_back(all);
+            }
+        }
+    }
+    bool at(const vec3& p) const
+    {
+        const vec2 c = glm::floor(seen_.cell(p));
+        const auto end = static_cast<float>(kHiddenCells);
+        if (!(c.x >= 0.0f && c.y >= 0.0f && c.x < end && c.y < end)) return false;
+        return hidden_[static_cast<std::size_t>(static_cast<int>(c.y) * kHiddenCells + static_cast<int>(c.x))];
+    }
+
+private:
+    FromAbove seen_;
+    std::vector<bool> hidden_;
+};
 
 scene::TextureIndex add_texture(scene::Scene& scene, const char* name, const Image& image)
 {
@@ -167,6 +254,37 @@ float stains(const vec2& at, float around)
     return std::clamp(tone, 0.6f, 1.4f);
 }
 
+// A vertex in the middle of two.
+std::uint32_t half_way(scene::Primitive& disc, std::uint32_t a, std::uint32_t b)
+{
+    disc.positions.push_back(0.5f * (disc.positions[a] + disc.positions[b]));
+    disc.normals.push_back(disc.normals[a]);
+    disc.tangents.push_back(disc.tangents[a]);
+    disc.uv0.push_back(0.5f * (disc.uv0[a] + disc.uv0[b]));
+    disc.colors.push_back(0.5f * (disc.colors[a] + disc.colors[b]));
+    return static_cast<std::uint32_t>(disc.positions.size() - 1);
+}
+
+// A triangle of the ground without what of it is hidden, as far as some halvings of its sides tell that.
+void lay_seen(scene::Primitive& disc, const HiddenGround& hidden, const std::array<std::uint32_t, 3>& t, int halvings)
+{
+    const std::array<vec3, 3> p{disc.positions[t[0]], disc.positions[t[1]], disc.positions[t[2]]};
+    int count = 0;
+    for (const vec3& at : {p[0], p[1], p[2], 0.5f * (p[0] + p[1]), 0.5f * (p[1] + p[2]), 0.5f * (p[2] + p[0])})
+        count += hidden.at(at) ? 1 : 0;
+    if (count == 6) return;
+    if (count == 0 || halvings == 0) {
+        disc.indices.insert(disc.indices.end(), t.begin(), t.end());
+        return;
+    }
+    const std::uint32_t ab = half_way(disc, t[0], t[1]), bc = half_way(disc, t[1], t[2]),
+                        ca = half_way(disc, t[2], t[0]);
+    lay_seen(disc, hidden, {t[0], ab, ca}, halvings - 1);
+    lay_seen(disc, hidden, {ab, t[1], bc}, halvings - 1);
+    lay_seen(disc, hidden, {ca, bc, t[2]}, halvings - 1);
+    lay_seen(disc, hidden, {ab, bc, ca}, halvings - 1);
+}
+
 }  // namespace
 
 bool brings_ground(const scene::Scene& scene, const scene::Bounds& content)
@@ -174,35 +292,10 @@ bool brings_ground(const scene::Scene& scene, const scene::Bounds& content)
     const vec3 size = content.high - content.low;
     const float width = std::max(size.x, size.z);
     if (!(width > 0.0f) || size.y > 0.5f * width) return false;
-    std::vector<bool> cells(static_cast<std::size_t>(kCells * kCells), false);
-    const vec2 low(content.low.x, content.low.z);
-    const vec2 scale = static_cast<float>(kCells) /
-                       glm::max(vec2(size.x, size.z), vec2(1e-6f * width));
-    for (const scene::Instance& instance : scene.instances) {
-        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
-            std::vector<vec3> world;
-            world.reserve(primitive.positions.size());
-            for (const vec3& p : primitive.positions)
-                world.emplace_back(instance.to_world * glm::vec4(p, 1.0f));
-            for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-                const vec3& a = world[primitive.indices[i]];
-                const vec3& b = world[primitive.indices[i + 1]];
-                const vec3& c = world[primitive.indices[i + 2]];
-                const vec3 face = glm::cross(b - a, c - a);
-                // Either way up: what winding says is often wrong.
-                if (!(std::abs(face.y) > 0.6f * glm::length(face))) continue;
-                const auto cell = [&](const vec3& p) { return (vec2(p.x, p.z) - low) * scale; };
-                const std::array<vec2, 3> t{cell(a), cell(b), cell(c)};
-                const auto outside = [&](int k) {
-                    return (t[0][k] < 0 && t[1][k] < 0 && t[2][k] < 0) ||
-                           (t[0][k] > kCells && t[1][k] > kCells && t[2][k] > kCells);
-                };
-                if (!outside(0) && !outside(1)) mark(cells, t);
-            }
-        }
-    }
-    const auto filled = std::count(cells.begin(), cells.end(), true);
-    return static_cast<double>(filled) >= kFilled * static_cast<double>(cells.size());
+    const FromAbove seen(scene, content, kCells);
+    const auto empty = std::count(seen.height_m.begin(), seen.height_m.end(), kNothing);
+    const auto cells = static_cast<double>(seen.height_m.size());
+    return cells - static_cast<double>(empty) >= kFilled * cells;
 }
 
 void add_ground(scene::Scene& scene, const scene::Bounds& content)
@@ -242,12 +335,15 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
         return static_cast<std::uint32_t>(1 + ring * kSegments +
                                           static_cast<std::size_t>(s % kSegments));
     };
+    const HiddenGround hidden(scene, content, centre.y, kClose * around);
+    const auto lay = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        lay_seen(disc, hidden, {a, b, c}, kHalvings);
+    };
     for (int s = 0; s < kSegments; ++s) {
-        disc.indices.insert(disc.indices.end(), {0u, at(0, s + 1), at(0, s)});
+        lay(0u, at(0, s + 1), at(0, s));
         for (std::size_t ring = 0; ring + 1 < std::size(rings); ++ring) {
-            disc.indices.insert(disc.indices.end(),
-                                {at(ring, s), at(ring, s + 1), at(ring + 1, s),
-                                 at(ring, s + 1), at(ring + 1, s + 1), at(ring + 1, s)});
+            lay(at(ring, s), at(ring, s + 1), at(ring + 1, s));
+            lay(at(ring, s + 1), at(ring + 1, s + 1), at(ring + 1, s));
         }
     }
     scene::Instance instance;

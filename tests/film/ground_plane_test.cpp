@@ -71,5 +71,38 @@ TEST(GroundPlane, LiesBelowTheSceneAndLeavesItsBoundsAlone)
     EXPECT_EQ(alone.textures.size(), 3u);
 }
 
+// Patches cannot tell two sheets apart that are closer than they are wide: the dark one below a plate would show on it.
+TEST(GroundPlane, IsLeftOutWhereAPlateLiesOnIt)
+{
+    const auto covered_m2 = [](float height) {
+        // Half of the rectangle around it, so that it brings no ground.
+        scene::Scene plate = scene_of({box({-5, height, -5}, {5, height + 0.05f, 0}), box({-5, 0, 4.9f}, {5, 0.1f, 5})});
+        const scene::Bounds content = content_bounds(plate);
+        EXPECT_FALSE(brings_ground(plate, content));
+        add_ground(plate, content);
+        const scene::Primitive& disc = plate.meshes.back().primitives[0];
+        double left_out = 0.0;
+        for (int z = 0; z < 100; ++z) {
+            for (int x = 0; x < 100; ++x) {
+                const glm::vec2 at(-5.0f + 0.1f * (static_cast<float>(x) + 0.5f), -5.0f + 0.1f * (static_cast<float>(z) + 0.5f));
+                bool there = false;
+                for (std::size_t i = 0; i + 2 < disc.indices.size() && !there; i += 3) {
+                    const auto side = [&](std::size_t a, std::size_t b) {
+                        const glm::vec3 p = disc.positions[disc.indices[i + a]], q = disc.positions[disc.indices[i + b]];
+                        return (q.x - p.x) * (at.y - p.z) - (q.z - p.z) * (at.x - p.x) <= 1e-5f;
+                    };
+                    there = side(0, 1) && side(1, 2) && side(2, 0);
+                }
+                if (there) continue;
+                left_out += 0.01;
+                EXPECT_LT(at.y, 0.0f) << "ground beside the plate is whole";
+            }
+        }
+        return left_out;
+    };
+    EXPECT_GT(covered_m2(0.0f), 40.0) << "of 50";
+    EXPECT_EQ(covered_m2(1.0f), 0.0) << "one can look below a table";
+}
+
 }  // namespace
 }  // namespace petrichor::film
