@@ -359,6 +359,43 @@ TEST(NearLight, AThinStripIsKnownToEveryPatchAlongIt)
     }
 }
 
+// Land of two sides with smooth normals: its own back is nothing that stands close to it.
+TEST(NearLight, TheBackOfASheetIsNotCloseToItsFront)
+{
+    Scene scene = empty_scene();
+    scene.materials[0].double_sided = true;
+    Primitive& p = scene.meshes[0].primitives[0];
+    constexpr int kSide = 60;
+    const auto height = [](float x, float z) {
+        return 0.004f * (std::sin(9.0f * x + 1.0f) + std::sin(7.0f * z + 3.0f * std::sin(5.0f * x)));
+    };
+    for (int z = 0; z <= kSide; ++z) {
+        for (int x = 0; x <= kSide; ++x) {
+            const glm::vec2 at = 0.08f * glm::vec2(x, z);
+            p.positions.emplace_back(at.x, height(at.x, at.y), at.y);
+            const float e = 0.05f;
+            p.normals.push_back(glm::normalize(glm::vec3(height(at.x - e, at.y) - height(at.x + e, at.y), 2.0f * e,
+                                                         height(at.x, at.y - e) - height(at.x, at.y + e))));
+            p.uv0.emplace_back(0.0f, 0.0f);
+        }
+    }
+    const auto number = [](int x, int z) { return static_cast<std::uint32_t>(z * (kSide + 1) + x); };
+    for (int z = 0; z < kSide; ++z)
+        for (int x = 0; x < kSide; ++x)
+            p.indices.insert(p.indices.end(), {number(x, z), number(x, z + 1), number(x + 1, z), number(x + 1, z),
+                                               number(x, z + 1), number(x + 1, z + 1)});
+    const Cut cut(scene, 0.175f);
+    std::size_t above = 0, own = 0;
+    for (std::uint32_t leaf = 0; leaf < cut.patches.count; ++leaf) {
+        if (cut.patches.normal[leaf].y < 0.7f) continue;
+        ++above;
+        for (std::uint32_t e = cut.near.first[leaf]; e < cut.near.first[leaf + 1]; ++e)
+            own += cut.near.normal[cut.near.source[e]].y < 0.0f ? 1u : 0u;
+    }
+    EXPECT_GT(above, 100u);
+    EXPECT_EQ(own, 0u);
+}
+
 // The bevel of a table is a hundredth of the cells along it: it is asked all the same.
 TEST(NearLight, ABevelWithoutSamplesIsAsked)
 {

@@ -30,6 +30,7 @@ constexpr int kGlowLevel = 0;
 constexpr int kMostAlong = 8;
 constexpr float kTowardsEdge = 0.1f;   // of a side's breadth
 constexpr float kAtEdge = 0.02f;
+constexpr float kAgainst = -0.7f, kSheet = 0.05f, kHardly = 0.1f;  // cosine; of a cell; of a distance
 constexpr float kTowardsMiddle = 0.1f;  // of a polygon, from what is nearest to its receivers
 constexpr float kFarFactor = 0.02f;     // area over distance squared
 constexpr float kLeastSquare = 1e-4f;   // of form factors, over the patch
@@ -279,6 +280,8 @@ std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool b
         const float height = std::max(lowest, 0.0f);
         const glm::vec3 nearest = nearest_in(polygon, n, p.position_m);
         const float whole2 = glm::dot(nearest - p.position_m, nearest - p.position_m);
+        // What faces the point, from hardly above its plane, is the back of its own sheet, over a fold of which it hangs.
+        if (glm::dot(n, p.normal) < kAgainst && highest < kSheet * patches_.cell_m + kHardly * std::sqrt(whole2)) continue;
         // Between its samples the patch goes on.
         const float beside = std::max(std::sqrt(std::max(whole2 - height * height, 0.0f)) - around.spacing, 0.0f);
         nearest2 = std::min(nearest2, height * height + beside * beside);
