@@ -90,7 +90,7 @@ def main():
     out = asked.keep or pathlib.Path(tempfile.mkdtemp())
     (out / "blender_separate").mkdir(parents=True, exist_ok=True)
     scene = asked.scene.resolve()
-    if shutil.which("blender"):
+    if shutil.which("blender"):  # Debian's needs the python of the system first in the path
         script = out / "export.py"
         script.write_text(f"SCENE, OUT = {str(scene)!r}, {str(out.resolve())!r}\n" + BLENDER)
         quiet(["blender", "-b", "--factory-startup", "-P", script])
