@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
+constexpr float kBrightest_lux = 200000.0f;  // as [sun] illuminance_lux
 
 }  // namespace
 
@@ -62,7 +63,7 @@ std::optional<float> illuminance_of_scene(const scene::Scene& scene, const gpu::
     clear.sun_illuminance = 1.0f;
     clear.sun_elevation_rad =
         static_cast<float>(std::max(direction_against(light->direction).elevation_rad, 10.0 * kDegree));
-    return lux / glm::dot(gpu::sunlight_at_ground(clear), weights);
+    return std::min(lux / glm::dot(gpu::sunlight_at_ground(clear), weights), kBrightest_lux);
 }
 
 }  // namespace petrichor::film

@@ -26,7 +26,7 @@ weather::SunAngles sun_at(const ScenarioSun& sun, const scene::Scene& scene,
 /// What `sky`'s sun must have above the air so that a clear one is as bright on the ground as the scene's first
 /// directional light: the sky goes with the sun that shines. None where the scene has none, or one without light.
 /// The air is taken as long as that light says, but one below 10 degrees as if it stood there, since what the air leaves
-/// of it goes to 0.
+/// of it goes to 0. Lux, at most 200 000, the most that [sun] illuminance_lux may be: brighter suns have a darker sky.
 std::optional<float> illuminance_of_scene(const scene::Scene& scene, const gpu::Sky& sky);
 
 }  // namespace petrichor::film

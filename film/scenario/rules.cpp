@@ -227,7 +227,7 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.sun.day_of_year = v.number(1.0, 366.0); }},
         {{"sun", "illuminance_lux", "100000.0",
           "of a clear sun on a plane that faces it, 0 to 200000; with source = \"scene\" of the sun of "
-          "the sky, which otherwise is as bright as the scene's"},
+          "the sky, which otherwise is as bright as the scene's, up to that"},
          [](Scenario& s, const TomlValue& v) { s.sun.illuminance_lux = v.number(0.0, 200000.0); }},
         {{"sun", "cookie", "\"leaves.png\"",
           "a picture that the sun shines through, repeated: shadows of leaves, bars, clouds; black "

@@ -182,9 +182,9 @@
 #define BESIDES_SOFT_NORMAL 4u  // of skin
 #define BESIDES_SHARES 8u       // lighting reads shares in this scene
 #define BESIDES_ALONG 16u       // its light depends on the tangent
-#define BESIDES_AS_CLEARED 128u  // it mirrors as glass does and has no grain: the payload of a cleared G-buffer
 #define BESIDES_ONE_READ 32u    // occlusion is a channel of what roughness and metal are read from
 #define BESIDES_WIDE_GROUND 64u // its colour varies over the land (formulas/weather/ground_tone.h)
+#define BESIDES_AS_CLEARED 128u  // it mirrors as glass does and has no grain: the payload of a cleared G-buffer
 
 // Indices of alpha_mode.
 #define ALPHA_OPAQUE 0u

@@ -260,6 +260,8 @@ TEST(SunAt, TheSkyIsAsBrightAsTheScenesSun)
         return glm::dot(gpu::sunlight_at_ground(sky), glm::vec3(0.2126f, 0.7152f, 0.0722f));
     };
     EXPECT_NEAR(ground_lux(frame_at(sequence, {0}).frame.sky), 2000.0f, 1.0f);
+    sequence.scene.lights[0].intensity = 1e30f;
+    EXPECT_EQ(frame_at(sequence, {0}).frame.sky.sun_illuminance, 200000.0f);
     sequence.scene.lights[0].intensity = 0.0f;
     EXPECT_EQ(frame_at(sequence, {0}).frame.sky.sun_illuminance, 100000.0f);
     Sequence told = sequence_of("[sun]\nsource = \"scene\"\nilluminance_lux = 300\n");

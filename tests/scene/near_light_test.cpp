@@ -359,6 +359,23 @@ TEST(NearLight, AThinStripIsKnownToEveryPatchAlongIt)
     }
 }
 
+// What patches ask for what is close has a point that faces along n at each place, of more than two that are found.
+void expect_asked(const Cut& cut, const std::vector<glm::vec3>& places, glm::vec3 n)
+{
+    const auto receivers = near_receivers(cut.patches, cut.tracer, near_faces(cut.triangles), 0);
+    const LeafFinder finder(cut.patches);
+    int asked = 0;
+    for (const glm::vec3& at : places) {
+        const std::uint32_t leaf = finder.leaf_at(at, n);
+        if (leaf >= cut.patches.count) continue;
+        ++asked;
+        EXPECT_TRUE(std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
+                                [&](const SamplePoint& p) { return glm::dot(p.normal, n) > 0.9f; }))
+            << at.x;
+    }
+    EXPECT_GT(asked, 2);
+}
+
 // Land of two sides with smooth normals: its own back is nothing that stands close to it.
 TEST(NearLight, TheBackOfASheetIsNotCloseToItsFront)
 {
@@ -403,20 +420,10 @@ TEST(NearLight, ABevelWithoutSamplesIsAsked)
     add_face(scene, {0, 1, 1}, {2, 0, 0}, {0, 0, -1});
     add_face(scene, {0, 0.998f, 1.002f}, {2, 0, 0}, {0, 0.002f, -0.002f});
     const Cut cut(scene, 0.5f);
-    const auto receivers = near_receivers(cut.patches, cut.tracer, near_faces(cut.triangles), 0);
-    const LeafFinder finder(cut.patches);
     const glm::vec3 n = glm::normalize(glm::vec3(0, 1, 1));
-    int asked = 0;
-    for (int k = 0; k < 4; ++k) {
-        const glm::vec3 at(0.25f + 0.5f * static_cast<float>(k), 0.999f, 1.001f);
-        const std::uint32_t leaf = finder.leaf_at(at, n);
-        if (leaf >= cut.patches.count) continue;
-        ++asked;
-        EXPECT_TRUE(std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
-                                [&](const SamplePoint& p) { return glm::dot(p.normal, n) > 0.9f; }))
-            << at.x;
-    }
-    EXPECT_GT(asked, 2);
+    std::vector<glm::vec3> places;
+    for (int k = 0; k < 4; ++k) places.emplace_back(0.25f + 0.5f * static_cast<float>(k), 0.999f, 1.001f);
+    expect_asked(cut, places, n);
 }
 
 // Of a beam's end most of a side lies in the wall, its middle too: what stands out is asked all the same.
@@ -433,19 +440,8 @@ TEST(NearLight, ABeamsEndThatStandsOutOfAWallIsAsked)
         ends.push_back(low + glm::vec3(0.0f, 0.03f, 0.185f));
     }
     const Cut cut(scene, 0.35f);
-    const auto receivers = near_receivers(cut.patches, cut.tracer, near_faces(cut.triangles), 0);
-    const LeafFinder finder(cut.patches);
     const glm::vec3 n(-1, 0, 0);
-    int asked = 0;
-    for (const glm::vec3& at : ends) {
-        const std::uint32_t leaf = finder.leaf_at(at, n);
-        if (leaf >= cut.patches.count) continue;
-        ++asked;
-        EXPECT_TRUE(std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
-                                [&](const SamplePoint& p) { return glm::dot(p.normal, n) > 0.9f; }))
-            << at.x;
-    }
-    EXPECT_GT(asked, 2);
+    expect_asked(cut, ends, n);
 }
 
 // Two triangles of a face are one polygon.
