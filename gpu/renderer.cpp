@@ -537,14 +537,23 @@ RenderResult Renderer::render(const Frame& frame)
     return impl_->render(frame, impl_->pictures);
 }
 
-std::optional<float> Renderer::meter(const Frame& frame)
+MeterReading Renderer::meter(const Frame& frame, MeterOf what)
 {
     check_frame(frame, impl_->device.limits());
     if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before meter().");
-    const RenderResult result = impl_->render(metering_frame(frame), impl_->metering);
+    const RenderResult result = impl_->render(metering_frame(frame, what), impl_->metering);
     // Of the sky of a picture nothing is known.
     const bool computed = !impl_->environment && frame.sky.analytic_sun;
-    return metered_ev100(result.beauty, result.aovs.front().pixels, computed ? frame.sky.cloud_cover : 1.0f);
+    const std::vector<float>& snow = result.aovs.front().pixels;
+    MeterReading reading;
+    reading.ev100 = metered_ev100(result.beauty, snow, computed ? frame.sky.cloud_cover : 1.0f);
+    if (what == MeterOf::ExposureAndLight) {
+        reading.light = metered_light({.scattered_direct = result.aovs[2].pixels,
+                                       .scattered_indirect = result.aovs[3].pixels,
+                                       .base_color = result.aovs[1].pixels,
+                                       .snow = snow});
+    }
+    return reading;
 }
 
 const DeviceInfo& Renderer::device() const

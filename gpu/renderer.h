@@ -12,6 +12,7 @@
 
 #include "gpu/device/device_info.h"
 #include "gpu/frame/frame.h"
+#include "gpu/frame/metering.h"
 #include "gpu/frame/patch_scene.h"
 #include "gpu/frame/weather_maps.h"
 #include "gpu/outputs/aov_table.h"
@@ -66,10 +67,9 @@ public:
 
     RenderResult render(const Frame& frame);
 
-    /// Meters what the frame shows: renders it small, without a sample pattern, and returns EV100 of
-    /// the trimmed mean of its luminance (gpu/frame/metering.h). A function of the frame alone, as
-    /// render() is; nothing: the picture is black. `exposure` and `aovs` of the frame do not count.
-    std::optional<float> meter(const Frame& frame);
+    /// Meters what the frame shows: renders it small, without a sample pattern (gpu/frame/metering.h). A function
+    /// of the frame alone, as render() is. `exposure` and `aovs` of the frame do not count.
+    MeterReading meter(const Frame& frame, MeterOf what = MeterOf::Exposure);
 
     const DeviceInfo& device() const;
     /// Messages of the validation layer since construction (severity warning and above).

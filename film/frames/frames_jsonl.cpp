@@ -202,6 +202,11 @@ std::string frame_line(const FrameFacts& facts)
     if (facts.exposure_by.metered_ev100) {
         json["metered_ev100"] = shortest(*facts.exposure_by.metered_ev100);
     }
+    if (facts.exposure_by.metered_light) {
+        const glm::vec3 light = *facts.exposure_by.metered_light;
+        json["white_balance"] = {{"light_rgb", {shortest(light.r), shortest(light.g), shortest(light.b)}},
+                                 {"share", shortest(settings.white_share)}};
+    }
     json["camera"] = camera_json(facts.input.camera, settings.width, settings.height);
     json["sun"] = sun_json(facts.input.sky);
     if (const gpu::SunCookie& cookie = facts.input.sun_cookie; cookie.first_texel >= 0) {

@@ -29,6 +29,7 @@ std::string fingerprint_of(const FrameParts& parts);
 struct ExposureFacts {
     std::string mode = "fixed";          ///< auto, incident or fixed, as in a scenario
     std::optional<float> metered_ev100;  ///< with auto: of the picture and those around it
+    std::optional<glm::vec3> metered_light;  ///< with white_balance_k = "auto": linear sRGB, of luminance 1
 };
 
 /// What frames.jsonl says about one frame. The line holds no times of day, durations or paths: the

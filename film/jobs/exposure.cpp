@@ -51,7 +51,7 @@ double fixed_exposure(const ScenarioCamera& camera, double time_s)
 std::vector<MeteredJob> metered_jobs(const Sequence& sequence, const Job& job)
 {
     const ScenarioCamera& camera = camera_of(sequence, job);
-    if (camera.exposure_mode != Exposure::Auto) return {};
+    if (camera.exposure_mode != Exposure::Auto && !camera.white_balance_auto) return {};
     const ScenarioOutput& output = sequence.scenario.output;
     const int n = neighbours(sequence, job);
     const int step = std::clamp(static_cast<int>(std::lround(kMetered_s * output.fps)), 1,
@@ -93,13 +93,13 @@ std::vector<std::string> smoothing_notes(const Sequence& sequence)
 }
 
 MeteredSetting metered_setting(const ScenarioCamera& camera, const std::vector<MeteredJob>& jobs,
-                               const std::vector<std::optional<float>>& ev100)
+                               const std::vector<gpu::MeterReading>& readings)
 {
     double sum = 0.0;
     double weight = 0.0;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        if (!ev100[i]) continue;
-        sum += jobs[i].weight * static_cast<double>(*ev100[i]);
+        if (!readings[i].ev100) continue;
+        sum += jobs[i].weight * static_cast<double>(*readings[i].ev100);
         weight += jobs[i].weight;
     }
     MeteredSetting setting{camera.ev100_low, std::nullopt};
@@ -111,10 +111,22 @@ MeteredSetting metered_setting(const ScenarioCamera& camera, const std::vector<M
     return setting;
 }
 
-// Meters it, unless that is done or another thread is at it.
-Meter::Metered Meter::metered(gpu::Renderer& renderer, const Job& job)
+glm::vec3 metered_white(const std::vector<MeteredJob>& jobs, const std::vector<gpu::MeterReading>& readings)
 {
-    std::promise<std::optional<float>> promise;
+    glm::dvec3 sum(0.0);
+    double weight = 0.0;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (!readings[i].light) continue;
+        sum += jobs[i].weight * glm::dvec3(*readings[i].light);
+        weight += jobs[i].weight;
+    }
+    return weight > 0.0 ? glm::vec3(sum / weight) : glm::vec3(0.0f);
+}
+
+// Meters it, unless that is done or another thread is at it.
+Meter::Metered Meter::metered(gpu::Renderer& renderer, const Job& job, gpu::MeterOf what)
+{
+    std::promise<gpu::MeterReading> promise;
     Metered result;
     {
         const std::lock_guard lock(mutex_);
@@ -123,7 +135,7 @@ Meter::Metered Meter::metered(gpu::Renderer& renderer, const Job& job)
         result = metered_.emplace(job, promise.get_future().share()).first->second;
     }
     try {
-        promise.set_value(renderer.meter(frame_at(*sequence_, job).frame));
+        promise.set_value(renderer.meter(frame_at(*sequence_, job).frame, what));
     } catch (...) {
         promise.set_exception(std::current_exception());
     }
@@ -133,18 +145,27 @@ Meter::Metered Meter::metered(gpu::Renderer& renderer, const Job& job)
 ExposureFacts Meter::expose(gpu::Renderer& renderer, const Job& job, gpu::Frame& frame)
 {
     const ScenarioCamera& camera = camera_of(*sequence_, job);
-    if (camera.exposure_mode == Exposure::Fixed) return {"fixed", {}};
-    if (camera.exposure_mode == Exposure::Incident) return {"incident", {}};
+    ExposureFacts facts{"auto", {}, {}};
+    if (camera.exposure_mode == Exposure::Fixed) facts.mode = "fixed";
+    if (camera.exposure_mode == Exposure::Incident) facts.mode = "incident";
     const auto jobs = metered_jobs(*sequence_, job);
+    if (jobs.empty()) return facts;
+    const gpu::MeterOf what = camera.white_balance_auto ? gpu::MeterOf::ExposureAndLight : gpu::MeterOf::Exposure;
     // Its own share first: two threads that waited at once for each other's would never end.
     std::vector<Metered> pending;
-    for (const MeteredJob& one : jobs) pending.push_back(metered(renderer, one.job));
-    std::vector<std::optional<float>> ev100;
-    for (const Metered& one : pending) ev100.push_back(one.get());
-    const MeteredSetting setting = metered_setting(camera, jobs, ev100);
-    frame.settings.exposure = shared::exposure_of_ev100(static_cast<float>(setting.ev100));
-    ExposureFacts facts{"auto", {}};
-    if (setting.metered_ev100) facts.metered_ev100 = static_cast<float>(*setting.metered_ev100);
+    for (const MeteredJob& one : jobs) pending.push_back(metered(renderer, one.job, what));
+    std::vector<gpu::MeterReading> readings;
+    for (const Metered& one : pending) readings.push_back(one.get());
+    if (camera.exposure_mode == Exposure::Auto) {
+        const MeteredSetting setting = metered_setting(camera, jobs, readings);
+        frame.settings.exposure = shared::exposure_of_ev100(static_cast<float>(setting.ev100));
+        if (setting.metered_ev100) facts.metered_ev100 = static_cast<float>(*setting.metered_ev100);
+    }
+    if (camera.white_balance_auto) {
+        const glm::vec3 white = metered_white(jobs, readings);
+        frame.settings.white_light = white;
+        if (white != glm::vec3(0.0f)) facts.metered_light = white;
+    }
     return facts;
 }
 

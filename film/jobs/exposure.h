@@ -10,6 +10,7 @@
 
 #include "film/frames/frames_jsonl.h"
 #include "film/jobs/sequence.h"
+#include "gpu/renderer.h"
 
 namespace petrichor::film {
 
@@ -22,8 +23,8 @@ struct MeteredJob {
     double weight = 0.0;  ///< of all 1
 };
 
-/// The frames that are metered for a job whose camera has exposure = "auto", in order; none for the
-/// others. With n = exposure_smoothing_s times the frames a second (rounded, at most 48, an eighth of
+/// The frames that are metered for a job whose camera has exposure = "auto" or white_balance_k = "auto", in order;
+/// none for the others. With n = exposure_smoothing_s times the frames a second (rounded, at most 48, an eighth of
 /// the sequence, and half an hour on the clock of a weather file): those of the n before and after it,
 /// within the sequence, that lie on a grid of about an eighth of a second
 /// (every frame where n is less), weighted by cos^2(pi k / (2 (n + 1))). A step of brightness so
@@ -41,21 +42,24 @@ struct MeteredSetting {
     std::optional<double> metered_ev100;
 };
 MeteredSetting metered_setting(const ScenarioCamera& camera, const std::vector<MeteredJob>& jobs,
-                               const std::vector<std::optional<float>>& ev100);
+                               const std::vector<gpu::MeterReading>& readings);
 
-/// Finds exposures of a sequence's frames; keeps what it has metered, so that neighbours share it.
+/// The mean of the colours of light that those frames were metered to, of luminance 1; black when none has any.
+glm::vec3 metered_white(const std::vector<MeteredJob>& jobs, const std::vector<gpu::MeterReading>& readings);
+
+/// Finds exposures and white balances of a sequence's frames; keeps what it has metered, so that neighbours share it.
 /// Several threads may ask, each with a renderer of its own.
 class Meter {
 public:
     explicit Meter(const Sequence& sequence) : sequence_(&sequence) {}
 
-    /// Sets the exposure of a job's frame where its picture decides. The renderer holds the scene
+    /// Sets the exposure and the white balance of a job's frame where its picture decides. The renderer holds the scene
     /// and the environment of the job's variant.
     ExposureFacts expose(gpu::Renderer& renderer, const Job& job, gpu::Frame& frame);
 
 private:
-    using Metered = std::shared_future<std::optional<float>>;
-    Metered metered(gpu::Renderer& renderer, const Job& job);
+    using Metered = std::shared_future<gpu::MeterReading>;
+    Metered metered(gpu::Renderer& renderer, const Job& job, gpu::MeterOf what);
 
     const Sequence* sequence_;
     std::mutex mutex_;

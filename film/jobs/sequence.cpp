@@ -24,6 +24,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kBloom = 0.04;  // of an eye, or a lens that is not quite clean
+constexpr double kWhiteShare = 0.8;  // of the cast of the light, by eye
 constexpr int kLargestSide = 16384;
 constexpr std::int64_t kMostPixels = 64 << 20;
 
@@ -431,6 +432,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.transparent_layers = scenario.render.transparent_layers;
     settings.tone_map = scenario.render.tone_map;
     settings.white_balance_k = narrow(value_at(camera.white_balance_k, time_s, 0.0));
+    settings.white_share = narrow(value_at(camera.white_balance_strength, time_s, kWhiteShare));
     settings.bloom = narrow(value_at(camera.bloom, time_s, kBloom));
     settings.wet_lens = narrow(value_at(camera.wet_lens, time_s, 0.0));
     settings.surface_path = scenario.render.surface_path;
@@ -579,6 +581,10 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
             const ScenarioCamera& camera = camera_of(sequence, what.job);
             hasher.add(camera.ev100_low);
             hasher.add(camera.ev100_high);
+            if (camera.white_balance_auto) {
+                hasher.add(std::string("light"));
+                hasher.add(what.frame.settings.white_share);
+            }
             for (const MeteredJob& one : metered) {
                 hasher.add(one.weight);
                 if (one.job != what.job) add_frame(hasher, frame_at(sequence, one.job).frame);

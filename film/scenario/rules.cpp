@@ -188,9 +188,22 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.camera.sensor_mm = v.number(1.0, 1000.0); }},
         {{"camera", "white_balance_k", "5000.0",
           "of the PNG: light of this colour temperature becomes white, 1667 to 25000 K; 0: as it "
-          "is",
+          "is; \"auto\": the light that falls on what is seen, in this frame and those around it",
           true},
-         [](Scenario& s, const TomlValue& v) { s.camera.white_balance_k = v.keyed(0.0, 25000.0); }},
+         [](Scenario& s, const TomlValue& v) {
+             s.camera.white_balance_k = {};
+             s.camera.white_balance_auto = v.is_text();
+             if (v.is_text()) {
+                 v.choice({"auto"});
+             } else {
+                 s.camera.white_balance_k = v.keyed(0.0, 25000.0);
+             }
+         }},
+        {{"camera", "white_balance_strength", "0.8",
+          "with white_balance_k = \"auto\": share of the light's cast that is taken away, 0 to 1; what is left "
+          "keeps a dusk blue and a lamp warm",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.camera.white_balance_strength = v.keyed(0.0, 1.0); }},
         {{"camera", "bloom", "0.04",
           "of the PNG: share of the light that the lens scatters around, so that lamps glow, 0 to "
           "1",

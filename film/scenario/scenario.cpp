@@ -116,8 +116,13 @@ void read_camera(Scenario& scenario, const TomlValue& value, const toml::table& 
                                                 "\"fixed\""),
                     "Give ev100 alone or with exposure = \"fixed\", for example ev100 = 12.");
     }
+    if (table.contains("white_balance_strength") && !camera.white_balance_auto) {
+        throw Error(value.place() + ": camera has white_balance_strength and a white_balance_k that is not \"auto\"",
+                    "Write white_balance_k = \"auto\", or leave white_balance_strength out.");
+    }
     for (KeyedNumber* number :
-         {&camera.exposure, &camera.ev100, &camera.exposure_bias, &camera.white_balance_k, &camera.bloom,
+         {&camera.exposure, &camera.ev100, &camera.exposure_bias, &camera.white_balance_k,
+          &camera.white_balance_strength, &camera.bloom,
           &camera.wet_lens}) {
         number->interpolation = scenario.camera.interpolation;
     }

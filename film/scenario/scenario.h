@@ -65,6 +65,8 @@ struct ScenarioCamera {
     double ev100_low = -6.0;       ///< limits of Auto
     double ev100_high = 18.0;
     KeyedNumber white_balance_k;   ///< not given: as it is
+    bool white_balance_auto = false;       ///< by the light on what is seen, instead
+    KeyedNumber white_balance_strength;    ///< with auto: share of the cast that goes; not given: 0.8
     KeyedNumber bloom;
     KeyedNumber wet_lens;
     KeyedNumber shutter_s;

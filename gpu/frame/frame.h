@@ -132,6 +132,8 @@ struct FrameSettings : FrameSwitches {
         4;  ///< so many lamps throw shadows, 0 to 16: the brightest as the eye sees them
     ToneMap tone_map = ToneMap::Filmic;
     float white_balance_k = 0.0f;  ///< light of this temperature is white; 0: as it is
+    glm::vec3 white_light{0.0f};   ///< if not black, light of this colour (linear, luminance 1) is white instead ..
+    float white_share = 1.0f;      ///< .. by this share of its cast, 0..1
     float bloom = 0.0f;  ///< 0..1: share of light that the lens scatters around; display only
     float wet_lens = 0.0f;  ///< 0..1: drops on its glass while it rains; display only
     SurfacePath surface_path = SurfacePath::Auto;

@@ -114,8 +114,12 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.fog_end_m = frame.fog.end_m;
     c.fog_height_m = frame.fog.height_m;
     c.fog_base_m = scene.low.y;
-    c.white_gains = s.white_balance_k > 0.0f ? shared::white_balance_gains(s.white_balance_k)
-                                             : glm::vec3(1.0f);
+    const bool metered_white = s.white_light != glm::vec3(0.0f);
+    if (metered_white) {
+        c.white_gains = shared::white_balance_gains_of_light(s.white_light, s.white_share);
+    } else {
+        c.white_gains = s.white_balance_k > 0.0f ? shared::white_balance_gains(s.white_balance_k) : glm::vec3(1.0f);
+    }
     c.bloom = s.bloom;
     // A lens that was just rained on dries as the ground does.
     c.wet_lens = s.wet_lens * std::clamp(2.0f * w.rain * (1.0f - w.water_to_snow) + 0.5f * w.film_albedo, 0.0f, 1.0f);
@@ -133,7 +137,7 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.sun_angular_cos = std::cos(kSunAngularRadius);
     const auto flag = [&c](bool on, std::uint32_t bit) { c.flags |= on ? bit : 0u; };
     flag(s.dither, FRAME_DITHER);
-    flag(s.white_balance_k > 0.0f, FRAME_WHITE_BALANCE);
+    flag(metered_white || s.white_balance_k > 0.0f, FRAME_WHITE_BALANCE);
     flag(s.shelter, FRAME_SHELTER);
     flag(sun.disc, FRAME_SUN_DISC);
     flag(s.gamma, FRAME_GAMMA);

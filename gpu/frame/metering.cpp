@@ -42,7 +42,13 @@ int step_of(float luminance)
 
 }  // namespace
 
-Frame metering_frame(const Frame& frame)
+std::vector<std::string> metering_aovs(MeterOf what)
+{
+    if (what == MeterOf::Exposure) return {"snow"};
+    return {"snow", "base_color", "diffuse_direct", "diffuse_indirect"};
+}
+
+Frame metering_frame(const Frame& frame, MeterOf what)
 {
     Frame small = frame;
     FrameSettings& s = small.settings;
@@ -55,7 +61,7 @@ Frame metering_frame(const Frame& frame)
     s.samples = 1;
     small.shutter.clear();
     small.lens.radius_m = 0.0f;
-    s.aovs = {"snow"};
+    s.aovs = metering_aovs(what);
     s.coarse_shadows = true;
     s.falling = false;  // so small a picture hardly has any
     // What is unlit is divided by the exposure: it must not be metered by itself.
@@ -108,6 +114,35 @@ std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
     const float grey =
         kInTheSun + (1.0f - kInTheSun) * std::clamp((cloud - kClear) / (kOvercast - kClear), 0.0f, 1.0f);
     return ev100 - (kSnowStops * share + grey * shared::flat_stops(static_cast<float>(above))) * day;
+}
+
+std::optional<glm::vec3> metered_light(const MeteredSurfaces& surfaces)
+{
+    constexpr float kLeastAlbedo = 0.03f;
+    constexpr float kSnowAlbedo = 0.9f;
+    const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
+    const std::size_t pixels = surfaces.snow.size();
+    std::vector<glm::dvec3> lights;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const auto at = [i](std::span<const float> numbers) {
+            return glm::vec3(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+        };
+        const glm::vec3 albedo = glm::mix(at(surfaces.base_color), glm::vec3(kSnowAlbedo),
+                                          std::clamp(surfaces.snow[i], 0.0f, 1.0f));
+        if (!(std::min({albedo.x, albedo.y, albedo.z}) >= kLeastAlbedo)) continue;
+        const glm::dvec3 light =
+            glm::dvec3(at(surfaces.scattered_direct) + at(surfaces.scattered_indirect)) / glm::dvec3(albedo);
+        const double luminance = glm::dot(light, kLuminance);
+        if (!(luminance > 0.0 && std::isfinite(luminance))) continue;
+        lights.push_back(light);
+        sum += luminance;
+    }
+    if (lights.empty()) return std::nullopt;
+    const double mean = sum / static_cast<double>(lights.size());
+    glm::dvec3 colour(0.0);
+    for (const glm::dvec3& light : lights) colour += light / std::max(glm::dot(light, kLuminance), mean);
+    return glm::vec3(colour / glm::dot(colour, kLuminance));
 }
 
 }  // namespace petrichor::gpu

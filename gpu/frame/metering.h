@@ -3,16 +3,31 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gpu/frame/frame.h"
 
 namespace petrichor::gpu {
 
+/// What a meter is asked for.
+enum class MeterOf {
+    Exposure,
+    ExposureAndLight  ///< the colour of the light, too
+};
+
+struct MeterReading {
+    std::optional<float> ev100;      ///< of the trimmed mean of the picture's luminance; nothing: it is black
+    std::optional<glm::vec3> light;  ///< its colour, linear, of luminance 1; nothing: not asked for, or none
+};
+
 /// The small frame that is rendered in place of `frame` to meter it: its longer side at most 96
 /// pixels, one sample in their centres, one map of the sun's shadows, no outputs besides the picture but
-/// how much snow lies where.
-Frame metering_frame(const Frame& frame);
+/// those of metering_aovs().
+Frame metering_frame(const Frame& frame, MeterOf what = MeterOf::Exposure);
+
+/// How much snow lies where; for the light what the surfaces scatter of it, too.
+std::vector<std::string> metering_aovs(MeterOf what);
 
 /// EV100 (formulas/light/exposure.h) of a picture of RGBA half bits, cd/m2; alpha 0 is sky.
 ///
@@ -32,6 +47,20 @@ Frame metering_frame(const Frame& frame);
 ///   cloud  0..1 of the sky
 std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
                                    std::span<const float> snow = {}, float cloud = 1.0f);
+
+/// What metered_light() takes of a picture: three numbers a pixel each, and one of snow.
+struct MeteredSurfaces {
+    std::span<const float> scattered_direct, scattered_indirect;  ///< cd/m2, linear
+    std::span<const float> base_color;
+    std::span<const float> snow;  ///< 0..1
+};
+
+/// The colour of the light that falls on what is seen, linear, of luminance 1: what each pixel's surface scatters,
+/// divided by its albedo (a snow cover has one of 0.9 in all channels), and the mean of all those colours.
+/// A pixel counts by its luminance up to the mean one, so that a bright window is no more than any other pixel and
+/// the dark says little. Surfaces with an albedo of less than 0.03 in any channel do not count.
+/// Nothing: there is none. A function of the numbers in their order.
+std::optional<glm::vec3> metered_light(const MeteredSurfaces& surfaces);
 
 }  // namespace petrichor::gpu
 

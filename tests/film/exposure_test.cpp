@@ -116,8 +116,8 @@ TEST(MeteredJobs, SpreadAStepOfLightOverManyFrames)
     double largest = 0.0;
     for (int frame = 0; frame < 40; ++frame) {
         const auto jobs = metered_jobs(sequence, {frame});
-        std::vector<std::optional<float>> ev100;
-        for (const MeteredJob& one : jobs) ev100.emplace_back(one.job.frame < 20 ? 12.0f : 4.0f);
+        std::vector<gpu::MeterReading> ev100;
+        for (const MeteredJob& one : jobs) ev100.push_back({one.job.frame < 20 ? 12.0f : 4.0f, {}});
         const double now = metered_setting(camera, jobs, ev100).ev100;
         if (frame > 0) largest = std::max(largest, std::abs(now - before));
         before = now;
@@ -132,14 +132,45 @@ TEST(MeteredSetting, StaysWithinTheLimitsAndLeavesBlackFramesOut)
         sequence_of("[camera]\nev100_limits = [2, 11]\n[output]\nfps = 12\nframes = 9\n");
     const ScenarioCamera& camera = sequence.views[0].camera;
     const auto jobs = metered_jobs(sequence, {4});
-    using Many = std::vector<std::optional<float>>;
-    EXPECT_EQ(metered_setting(camera, jobs, Many(jobs.size(), 15.0f)).ev100, 11.0);
-    EXPECT_EQ(metered_setting(camera, jobs, Many(jobs.size(), -9.0f)).ev100, 2.0);
+    using Many = std::vector<gpu::MeterReading>;
+    EXPECT_EQ(metered_setting(camera, jobs, Many(jobs.size(), {15.0f, {}})).ev100, 11.0);
+    EXPECT_EQ(metered_setting(camera, jobs, Many(jobs.size(), {-9.0f, {}})).ev100, 2.0);
     EXPECT_EQ(metered_setting(camera, jobs, Many(jobs.size())).ev100, 2.0);
     EXPECT_FALSE(metered_setting(camera, jobs, Many(jobs.size())).metered_ev100);
     Many some(jobs.size());
-    some[0] = 8.0f;
+    some[0].ev100 = 8.0f;
     EXPECT_NEAR(*metered_setting(camera, jobs, some).metered_ev100, 8.0, 1e-9);
+}
+
+TEST(MeteredWhite, IsTheMeanOfTheFramesAroundWhoeverDecidesTheExposure)
+{
+    for (const char* exposure : {"", "exposure = \"incident\"\n", "ev100 = 12\n"}) {
+        const Sequence sequence =
+            sequence_of(std::string("[camera]\nwhite_balance_k = \"auto\"\n") + exposure + "[output]\nframes = 40\nfps = 12\n");
+        const auto jobs = metered_jobs(sequence, {20});
+        ASSERT_GT(jobs.size(), 2u) << exposure;
+        std::vector<gpu::MeterReading> readings;
+        for (const MeteredJob& one : jobs) {
+            readings.push_back({{}, one.job.frame < 20 ? glm::vec3(0.5f, 1.0f, 2.0f) : glm::vec3(2.0f, 1.0f, 0.5f)});
+        }
+        const glm::vec3 white = metered_white(jobs, readings);
+        EXPECT_GT(white.x, white.z) << "the frame itself is among the later ones";
+        EXPECT_GT(white.z, 0.6f);
+        EXPECT_NEAR(white.y, 1.0f, 1e-6f);
+        readings.assign(jobs.size(), {});
+        EXPECT_EQ(metered_white(jobs, readings), glm::vec3(0.0f));
+        EXPECT_FLOAT_EQ(frame_at(sequence, {20}).frame.settings.white_share, 0.8f);
+    }
+    EXPECT_TRUE(metered_jobs(sequence_of("[camera]\nwhite_balance_k = 5000\nev100 = 12\n"), {5}).empty());
+}
+
+TEST(MeteredWhite, OfAScenarioIsAutoOrANumber)
+{
+    for (const char* wrong : {"white_balance_k = \"warm\"", "white_balance_k = -5", "white_balance_strength = 0.5",
+                              "white_balance_k = 5000\nwhite_balance_strength = 0.5",
+                              "white_balance_k = \"auto\"\nwhite_balance_strength = 1.5"}) {
+        EXPECT_THROW(sequence_of(std::string("[camera]\n") + wrong + "\n"), Error) << wrong;
+    }
 }
 
 TEST(FixedExposure, IsANumberOrAnEv100OverTime)

@@ -81,8 +81,9 @@ TEST(FramesJsonl, SayHowAFrameIsExposed)
     facts.exposure = 1.0f / (1.2f * 1024.0f);
     EXPECT_THAT(frame_line(facts), testing::HasSubstr("\"exposure_mode\":\"fixed\",\"ev100\":10."));
     EXPECT_THAT(frame_line(facts), testing::Not(testing::HasSubstr("metered_ev100")));
-    facts.exposure_by = {"auto", 9.5f};
+    facts.exposure_by = {"auto", 9.5f, glm::vec3(1.25f, 1.0f, 0.5f)};
     EXPECT_THAT(frame_line(facts), testing::HasSubstr("\"metered_ev100\":9.5,"));
+    EXPECT_THAT(frame_line(facts), testing::HasSubstr("\"white_balance\":{\"light_rgb\":[1.25,1.0,0.5],\"share\":1.0}"));
 }
 
 TEST(FramesJsonl, BrokenLinesAreLeftOut)

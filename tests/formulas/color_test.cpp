@@ -77,5 +77,17 @@ TEST(WhiteBalance, MakesTheLightOfATemperatureWhite)
     EXPECT_GT(white_balance_gains(3000.0f).z, 1.5f) << "lamplight lacks blue";
 }
 
+TEST(WhiteBalance, TakesAShareOfTheCastOfALight)
+{
+    const glm::vec3 lamp(1.6f, 0.9f, 0.35f);
+    const glm::vec3 all = white_balanced(lamp, white_balance_gains_of_light(lamp, 1.0f));
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(all[i], 1.0f, 1e-4f);
+    const glm::vec3 none = white_balanced(lamp, white_balance_gains_of_light(lamp, 0.0f));
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(none[i], lamp[i], 1e-4f);
+    const glm::vec3 half = white_balanced(lamp, white_balance_gains_of_light(lamp, 0.5f));
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(half[i], 0.5f * (1.0f + lamp[i]), 1e-4f) << "linear in the cones";
+    EXPECT_TRUE(std::isfinite(white_balance_gains_of_light(glm::vec3(1.0f, 0.0f, 0.0f), 1.0f).z));
+}
+
 }  // namespace
 }  // namespace petrichor::shared

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
+#include <limits>
 
 #include "formulas/light/exposure.h"
 #include "tests/gpu/gpu_fixture.h"
@@ -49,6 +50,39 @@ TEST(Metering, FollowsTheScaleOfThePictureExactly)
         turned.insert(turned.end(), dim.begin() + static_cast<std::ptrdiff_t>(i - 4),
                       dim.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_EQ(metered_ev100(turned), metered_ev100(dim));
+}
+
+TEST(MeteredLight, IsTheLightOnMostOfWhatIsSeen)
+{
+    const glm::vec3 sky(0.9f, 1.0f, 1.29f), lamp(1.5f, 0.95f, 0.1f);
+    std::vector<float> direct, indirect, base, snow;
+    const auto add = [&](int count, glm::vec3 light, glm::vec3 albedo, float white = 0.0f) {
+        for (int i = 0; i < count; ++i) {
+            const glm::vec3 seen = light * glm::mix(albedo, glm::vec3(0.9f), white);
+            for (int c = 0; c < 3; ++c) {
+                direct.push_back(0.25f * seen[c]);
+                indirect.push_back(0.75f * seen[c]);
+                base.push_back(albedo[c]);
+            }
+            snow.push_back(white);
+        }
+    };
+    const auto metered = [&] {
+        return metered_light({.scattered_direct = direct, .scattered_indirect = indirect, .base_color = base, .snow = snow});
+    };
+    EXPECT_FALSE(metered()) << "of nothing";
+    add(50, glm::vec3(7.0f), glm::vec3(0.5f, 0.5f, 0.01f));
+    EXPECT_FALSE(metered()) << "what is black in a channel tells nothing of it";
+    add(300, 40.0f * sky, glm::vec3(0.5f, 0.2f, 0.1f));
+    add(300, 40.0f * sky, glm::vec3(0.1f, 0.2f, 0.3f), 1.0f);
+    const glm::vec3 unit = sky / (0.2126f * sky.x + 0.7152f * sky.y + 0.0722f * sky.z);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR((*metered())[i], unit[i], 1e-3f);
+    const glm::vec3 before = *metered();
+    add(6, 40000.0f * lamp, glm::vec3(0.5f));
+    EXPECT_NEAR(metered()->x, before.x, 0.15f) << "one pixel in a hundred, a thousand times as bright";
+    add(1, glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(0.5f));
+    add(1, glm::vec3(std::numeric_limits<float>::quiet_NaN()), glm::vec3(0.5f));
+    EXPECT_TRUE(std::isfinite(metered()->x));
 }
 
 TEST(Metering, AFewLampsAndHolesDoNotCount)
@@ -182,8 +216,8 @@ Scene grey_floor()
 TEST_F(MeterTest, ALampAtNightIsMeteredWhichSunAndSkyAreNot)
 {
     renderer->load(grey_floor(), {});
-    const auto dim = renderer->meter(lamp_at_night(6.0f));
-    const auto bright = renderer->meter(lamp_at_night(48.0f));
+    const auto dim = renderer->meter(lamp_at_night(6.0f)).ev100;
+    const auto bright = renderer->meter(lamp_at_night(48.0f)).ev100;
     ASSERT_TRUE(dim && bright);
     EXPECT_NEAR(*bright - *dim, 3.0f, 0.15f) << "the night sky adds a little to both";
     // The light that falls in from the sky does not know of it.
@@ -194,38 +228,56 @@ TEST_F(MeterTest, ALampAtNightIsMeteredWhichSunAndSkyAreNot)
 TEST_F(MeterTest, IsAFunctionOfTheFrameAlone)
 {
     renderer->load(grey_floor(), {});
-    const auto first = renderer->meter(lamp_at_night(100.0f));
+    const auto first = renderer->meter(lamp_at_night(100.0f)).ev100;
     Frame other = lamp_at_night(5000.0f);
     other.sky.sun_elevation_rad = 0.6f;
     other.settings.exposure = 3.0f;
     renderer->render(other);
     renderer->meter(other);
-    EXPECT_EQ(renderer->meter(lamp_at_night(100.0f)), first);
+    EXPECT_EQ(renderer->meter(lamp_at_night(100.0f)).ev100, first);
     Renderer fresh({.device = "", .validation = true});
     fresh.load(grey_floor(), {});
-    EXPECT_EQ(fresh.meter(lamp_at_night(100.0f)), first);
+    EXPECT_EQ(fresh.meter(lamp_at_night(100.0f)).ev100, first);
     // Neither does metering leave anything in the next picture.
     Frame shown = lamp_at_night(100.0f);
     shown.settings.exposure = 0.05f;
     EXPECT_EQ(renderer->render(shown).display, fresh.render(shown).display);
 }
 
+TEST_F(MeterTest, TheColourOfTheLightIsFoundWhateverItFallsOn)
+{
+    // Green grass and red brick in the light of one warm lamp: the lamp's colour, neither of theirs.
+    Scene scene = scene_of({quad({-4, 0, 4}, {4, 0, 0}, {0, 0, -8}), quad({0, 0, 4}, {4, 0, 0}, {0, 0, -8}, 1)},
+                           {plain_material(glm::vec3(0.1f, 0.4f, 0.08f)), plain_material(glm::vec3(0.5f, 0.15f, 0.1f))});
+    renderer->load(scene, {});
+    Frame frame = lamp_at_night(100.0f);
+    frame.settings.draw_sky = false;
+    frame.settings.image_based_light = false;
+    for (scene::Light& light : frame.extra_lights) light.color = {1.0f, 0.6f, 0.3f};
+    EXPECT_FALSE(renderer->meter(frame).light) << "not asked for";
+    const MeterReading reading = renderer->meter(frame, MeterOf::ExposureAndLight);
+    ASSERT_TRUE(reading.light);
+    const glm::vec3 lamp = glm::vec3(1.0f, 0.6f, 0.3f) / (0.2126f + 0.7152f * 0.6f + 0.0722f * 0.3f);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR((*reading.light)[i], lamp[i], 0.02f) << i;
+    EXPECT_EQ(reading.ev100, renderer->meter(frame).ev100) << "and nothing else changes";
+}
+
 TEST_F(MeterTest, WhatIsUnlitDoesNotMeterItself)
 {
     Scene scene = grey_floor();
-    const auto alone = (renderer->load(scene, {}), renderer->meter(lamp_at_night(100.0f)));
+    const auto alone = (renderer->load(scene, {}), renderer->meter(lamp_at_night(100.0f)).ev100);
     scene.materials.push_back(plain_material(glm::vec3(1.0f)));
     scene.materials[1].unlit = true;
     scene.meshes[0].primitives.push_back(
         quad({-0.2f, 0.01f, 0.2f}, {0.4f, 0, 0}, {0, 0, -0.4f}, 1));
     renderer->load(scene, {});
-    EXPECT_NEAR(*renderer->meter(lamp_at_night(100.0f)), *alone, 0.4f);
+    EXPECT_NEAR(*renderer->meter(lamp_at_night(100.0f)).ev100, *alone, 0.4f);
     scene.meshes[0].primitives.erase(scene.meshes[0].primitives.begin());
     renderer->load(scene, {});
     Frame no_sky = lamp_at_night(100.0f);
     no_sky.settings.draw_sky = false;
     no_sky.settings.image_based_light = false;  // nor haze
-    EXPECT_FALSE(renderer->meter(no_sky));
+    EXPECT_FALSE(renderer->meter(no_sky).ev100);
 }
 
 }  // namespace
