@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kFramingFov_rad = 35.0 * kDegree;
+constexpr double kThingElevation_rad = 20.0 * kDegree;
+constexpr double kThing = 0.35, kLand = 0.15;  // height over width of what is no land, and of what is
+constexpr double kLandFrom_m = 15.0, kLand_m = 40.0;  // and how wide
+constexpr double kHorizon = 0.62;  // of the way from the middle of the picture to its upper edge
 constexpr double kDefaultFov_rad = 45.0 * kDegree;
 
 // Path of one attribute of the keys.
@@ -96,13 +100,18 @@ scene::Camera framing_camera(const scene::Bounds& bounds, double aspect)
     }
     const glm::dvec3 centre = 0.5 * (low + high);
     const double azimuth = -30.0 * kDegree;
-    const double elevation = 20.0 * kDegree;
+    const double tan_y = std::tan(0.5 * kFramingFov_rad);
+    const double tan_x = tan_y * aspect;
+    // A thing is seen from above; a land as a photographer would take it, with its horizon in the picture.
+    const glm::dvec3 size = high - low;
+    const double width = std::max(size.x, size.z);
+    const double land = std::clamp((kThing - size.y / width) / (kThing - kLand), 0.0, 1.0) *
+                        std::clamp((width - kLandFrom_m) / (kLand_m - kLandFrom_m), 0.0, 1.0);
+    const double elevation = glm::mix(kThingElevation_rad, std::atan(kHorizon * tan_y), land);
     const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                           std::cos(azimuth) * std::cos(elevation));
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), back));
     const glm::dvec3 up = glm::cross(back, right);
-    const double tan_y = std::tan(0.5 * kFramingFov_rad);
-    const double tan_x = tan_y * aspect;
     // Each corner asks for a distance from the centre at which it just touches the edge of the
     // frame.
     double distance = 0.0;

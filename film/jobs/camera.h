@@ -14,7 +14,8 @@ namespace petrichor::film {
 scene::Bounds content_bounds(const scene::Scene& scene);
 
 /// A camera that sees all of the bounds from the front right and above (three-quarter view), as
-/// near as the frame allows. aspect = width / height. Empty bounds are taken as 1 m around the
+/// near as the frame allows: from 20 degrees, and what is wide and low (40 m, height at most 0.15 of it) from less,
+/// with the horizon in the upper fifth of the picture. aspect = width / height. Empty bounds are taken as 1 m around the
 /// origin.
 scene::Camera framing_camera(const scene::Bounds& bounds, double aspect);
 

@@ -171,6 +171,20 @@ TEST(FramingCamera, SeesAllOfTheBounds)
     }
 }
 
+TEST(FramingCamera, OfALandHasTheHorizonInThePictureAndOfAThingNot)
+{
+    // Height of the horizon over the middle of the picture, as a share of the way to its edge.
+    const auto horizon = [](const scene::Bounds& bounds) {
+        const scene::Camera camera = framing_camera(bounds, 16.0 / 9.0);
+        const glm::vec3 back(camera.to_world[2]);
+        return back.y / std::hypot(back.x, back.z) / std::tan(0.5f * camera.vertical_fov_rad);
+    };
+    EXPECT_NEAR(horizon({{-150, 0, -100}, {150, 30, 100}}), 0.62f, 1e-3f);
+    EXPECT_GT(horizon({{-1.5f, 0, -1.0f}, {1.5f, 0.1f, 1.0f}}), 1.0f) << "a table is no land";
+    EXPECT_GT(horizon({{-50, 0, -40}, {50, 90, 40}}), 1.0f) << "nor a tower";
+    EXPECT_GT(horizon({}), 1.0f);
+}
+
 TEST(ContentBounds, ALargeGroundDoesNotHideTheTown)
 {
     scene::Scene scene;
