@@ -30,6 +30,14 @@ const uint GUSTS = 0u;
 #include "gpu/passes/lighting/light_parts.glsl"
 #include "gpu/passes/sky/night.glsl"
 
+// Where the sky's map is asked in a direction over the horizon: no lower than the middle of its first row, below which
+// it fades into the land.
+vec3 over_horizon(vec3 direction)
+{
+    const float row = max(abs(direction.x), abs(direction.z)) / float(textureSize(sky_map, 0).x);
+    return vec3(direction.x, max(direction.y, row), direction.z);
+}
+
 // The land of the sky, which shows it as an eye near the ground does: from higher up more air lies before it.
 vec3 land_behind_air(vec3 radiance, vec3 direction)
 {
@@ -41,18 +49,21 @@ vec3 land_behind_air(vec3 radiance, vec3 direction)
     const float path_m =
         fog_path_to_land(direction.y, frame.camera_m.y - frame.fog_base_m, frame.fog_height_m) -
         (1.0 - known) * fog_path_to_land(direction.y, fog_eye_of_sky_m(), frame.fog_height_m);
+    const float distance_m = (frame.camera_m.y - frame.fog_base_m) / max(-direction.y, 1.0e-6);
+    const float drawn = drawn_depth(max(distance_m, 0.0), frame.drawn_per_m, frame.drawn_reach_m);
     const float kept = fog_kept(frame.fog_mode, max(path_m, 0.0), frame.fog_per_m, frame.fog_start_m,
-                                frame.fog_end_m);
+                                frame.fog_end_m) * exp(drawn);
     // At the horizon the air is that of the sky above it; below, that of what stands on the land.
-    const vec3 level = textureLod(sky_map, vec3(direction.x, 0.0, direction.z), 0.0).rgb;
+    const vec3 level = textureLod(sky_map, over_horizon(vec3(direction.x, 0.0, direction.z)), 0.0).rgb;
     const vec3 veil = mix(level, textureLod(sky_map, air_level(direction), kAirMip).rgb,
-                          smoothstep(0.0, 0.12, -direction.y));
-    return mix(veil * frame.sky_scale, radiance, kept);
+                          smoothstep(0.0, 0.04, -direction.y));
+    return mix(veil * frame.sky_scale, radiance, min(kept, 1.0));
 }
 
 vec3 background(vec3 direction)
 {
-    const vec4 sky = textureLod(sky_map, direction, 0.0);
+    const bool over_land = (frame.flags & FRAME_LAND) != 0u && FOG != 0u && direction.y >= 0.0;
+    const vec4 sky = textureLod(sky_map, over_land ? over_horizon(direction) : direction, 0.0);
     vec3 radiance = land_behind_air(sky.rgb * frame.sky_scale, direction);
     if (NIGHT != 0u) radiance += night_lights(direction) * sky.a;
     if ((frame.flags & FRAME_SUN_DISC) != 0u) {
