@@ -226,6 +226,10 @@ std::shared_ptr<const gpu::PlaceWeather> PlaceWeatherOfFile::at(std::int64_t utc
         put_state(m.run.state(i), m.surfaces[m.kind[i]], m.relief[m.material[i]], m.material[i],
                   pond, &place->states[i * PLACE_STATE_TEXELS]);
     }
+    const std::uint32_t kind = m.run.open_kind();
+    const auto material = static_cast<std::uint32_t>(kind % m.relief.size());
+    place->open.resize(PLACE_STATE_TEXELS);
+    put_state(m.run.open(), m.surfaces[kind], m.relief[material], material, {}, place->open.data());
     return place;
 }
 

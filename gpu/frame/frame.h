@@ -158,6 +158,9 @@ struct PlaceWeather {
     std::shared_ptr<const PlaceShape> shape;
     std::vector<glm::vec4> states;  ///< PLACE_STATE_TEXELS a patch, see place_io.h
     std::vector<float> levels_m;    ///< of the water over each pit, by label; at least one
+    /// State of level ground in the open, for ground of its material beyond the patches: PLACE_STATE_TEXELS;
+    /// empty: such ground has the weather of the frame.
+    std::vector<glm::vec4> open;
 };
 
 /// What of the rain and snow of a frame is in its picture.

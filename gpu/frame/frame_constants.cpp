@@ -167,6 +167,11 @@ VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weath
         visible.snow = visible.snow || shown.w > 0.0f;
         visible.frost = visible.frost || place.states[i + 1].x > 0.0f;
     }
+    if (!place.open.empty()) {
+        visible.water = visible.water || place.open[0].y > 0.0f || place.open[0].z > 0.0f;
+        visible.snow = visible.snow || place.open[0].w > 0.0f;
+        visible.frost = visible.frost || place.open[1].x > 0.0f;
+    }
     // Hollows may hold water where no patch does.
     visible.water = visible.water || !place.shape->labels.empty();
     return visible;

@@ -78,6 +78,13 @@ vec4 place_state(uint patch_number, int texel)
     return texelFetch(place_states, int(patch_number) * PLACE_STATE_TEXELS + texel);
 }
 
+// Whether a point without a patch is open ground whose state is known (PlaceConstants::open_patch).
+bool place_open(vec3 n, uint material_id)
+{
+    return frame.place.open_patch != kNoPatch && n.y > 0.3 &&
+           uint(place_state(frame.place.open_patch, 3).w) == material_id;
+}
+
 // How deep a point of the ground lies below the water of its hollow, m; 0 where there is none.
 float place_depth(vec3 x)
 {

@@ -22,6 +22,7 @@ struct PlaceConstants {
     float basin_cell_m;
     uint basin_width;  // cells; 0: no hollows
     uint basin_depth;
+    uint open_patch;  // state of open ground of its material without a patch; kNoPatch: there is none
 };
 
 SHARED_END

@@ -30,7 +30,8 @@ void check(const PlaceWeather& place)
 {
     const PlaceShape& s = *place.shape;
     const bool tables = s.table.size() == std::size_t{s.grid.table_mask} + 1 &&
-                        place.states.size() == std::size_t{s.grid.patches} * PLACE_STATE_TEXELS;
+                        place.states.size() == std::size_t{s.grid.patches} * PLACE_STATE_TEXELS &&
+                        (place.open.empty() || place.open.size() == PLACE_STATE_TEXELS);
     const bool hollows =
         s.labels.size() == std::size_t{s.basin_width} * s.basin_depth && !place.levels_m.empty() &&
         std::all_of(s.labels.begin(), s.labels.end(),
@@ -59,7 +60,7 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
                           VK_FORMAT_R32G32B32A32_UINT);
     states_ = texel_buffer(
         *arena_, "place_states",
-        at_least(std::size_t{shape.grid.patches} * PLACE_STATE_TEXELS) * sizeof(glm::vec4),
+        (std::size_t{shape.grid.patches} + 1) * PLACE_STATE_TEXELS * sizeof(glm::vec4),
         VK_FORMAT_R32G32B32A32_SFLOAT);
     labels_ = texel_buffer(*arena_, "place_labels", at_least(shape.labels.size()) * 4,
                            VK_FORMAT_R32_UINT);
@@ -67,7 +68,7 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
     fill(*table_, shape.table);
     fill(*labels_, shape.labels);
     constants_ = {shape.grid, shape.basin_corner_m, shape.basin_cell_m, shape.basin_width,
-                  shape.basin_depth};
+                  shape.basin_depth, shared::kNoPatch};
     level_count_ = levels;
 }
 
@@ -84,6 +85,11 @@ void GpuPlace::update(const Device& device, const PlaceWeather* place)
         shape_ = place->shape;
     }
     fill(*states_, place->states);
+    // Behind those of the patches.
+    if (!place->open.empty())
+        std::memcpy(static_cast<std::byte*>(states_->mapped) + place->states.size() * sizeof(glm::vec4),
+                    place->open.data(), place->open.size() * sizeof(glm::vec4));
+    constants_.open_patch = place->open.empty() ? shared::kNoPatch : constants_.grid.patches;
     fill(*levels_, place->levels_m);
 }
 

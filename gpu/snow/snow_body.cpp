@@ -115,7 +115,7 @@ std::vector<float> SnowBody::depths(const Frame& frame)
         find_patches(*shape_);
     }
     for (std::size_t i = 0; i < caps_->points.size(); ++i) {
-        float depth = w.snow_depth_m;
+        float depth = placed && !frame.place->open.empty() ? frame.place->open[2].z : w.snow_depth_m;
         if (placed && patches_[i][kMiddle] != shared::kNoPatch) {
             depth = 0.0f;
             for (std::size_t k = 0; k < patches_[i].size(); ++k) {

@@ -164,6 +164,38 @@ TEST_F(PlaceTest, WhatHasNoPatchHasTheFilmOfTheFrame)
     EXPECT_NEAR(aov(renderer->render(frame), "film", 32, 32), 1.0f - std::exp(-0.8f), 0.01f);
 }
 
+// Ground goes on as its patches are in the open: no border where they end. What is made of another
+// material is no such ground.
+TEST_F(PlaceTest, GroundBeyondThePatchesIsWhatTheyAreInTheOpen)
+{
+    load_floor();
+    renderer->load(scene_of({quad({-2, 0, 2}, {2, 0, 0}, {0, 0, -4}),
+                             quad({20, 0, 22}, {2, 0, 0}, {0, 0, -4}),
+                             quad({22, 0, 22}, {2, 0, 0}, {0, 0, -4}, 1)},
+                            {plain_material(glm::vec3(0.3f)), plain_material(glm::vec3(0.3f))}),
+                   {});
+    auto place = dry();
+    place->open = {{0.6f, 0, 0, 0}, {0.5f, 0, 1, 0}, {0.1f, 0, 0, 0.02f}, {0, 265.0f, 1, 0.0f}};
+    Frame frame = from_above(place);
+    frame.settings.aovs.push_back("frost");
+    frame.camera = look({22, 6, 20}, {22, 0, 20}, 0.7f);
+    frame.weather.surface_temperature_k = 270.0f;
+    const RenderResult r = renderer->render(frame);
+    EXPECT_NEAR(aov(r, "film", 14, 32), 0.6f, 0.01f);
+    EXPECT_EQ(aov(r, "film", 50, 32), 0.0f);
+    EXPECT_EQ(aov(r, "surface_temperature", 14, 32), 265.0f);
+    EXPECT_EQ(aov(r, "surface_temperature", 50, 32), 270.0f);
+    EXPECT_EQ(aov(r, "ice", 14, 32), 0.02f);
+    EXPECT_EQ(aov(r, "frost", 50, 32), 0.0f);
+    float most = 0.0f;
+    for (int x = 2; x < 30; ++x) most = std::max(most, aov(r, "frost", x, 32));
+    EXPECT_GT(most, 0.3f);
+    auto wrong = std::make_shared<PlaceWeather>(*place);
+    wrong->open.pop_back();
+    wrong->shape = std::make_shared<PlaceShape>(*shape);
+    EXPECT_THROW(renderer->render(from_above(wrong)), Error);
+}
+
 TEST_F(PlaceTest, PondsAreFlatAndAsDeepAsTheirLevel)
 {
     load_floor();

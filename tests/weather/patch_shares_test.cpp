@@ -115,6 +115,21 @@ TEST(PatchShares, AnisotropicSkyOfPerez)
     EXPECT_NEAR(relative_air_mass(60 * kDegree), 1.9942, 1e-3);
 }
 
+// By hand from the depths of Kasten 1996: 1 / 8.267 at an air mass of 1, 1 / 9.694 at 1.994.
+TEST(PatchShares, TheBeamOfTheClearestAir)
+{
+    EXPECT_NEAR(clear_beam_w_m2(1000.0, 0.0, 0.0), 811.0, 0.5);
+    EXPECT_NEAR(clear_beam_w_m2(1000.0, 60 * kDegree, 0.0), 700.2, 0.5);
+    EXPECT_GT(clear_beam_w_m2(1000.0, 60 * kDegree, 2000.0), 730.0);
+    double last = 1000.0;
+    for (int z = 0; z <= 90; ++z) {
+        const double beam = clear_beam_w_m2(1000.0, z * kDegree, std::nan(""));
+        EXPECT_LT(beam, last);
+        last = beam;
+    }
+    EXPECT_LT(last, 200.0);
+}
+
 TEST(PatchShares, AWallGainsFromTheWarmHorizon)
 {
     EXPECT_NEAR(warm_horizon_w_m2(1.19199, 0.0, 275.15) * 0.5, 10.0, 0.2);

@@ -10,7 +10,9 @@
 #include "weather/patches/driving_rain.h"
 #include "weather/patches/patch_weather.h"
 #include "weather/patches/pond_ice.h"
+#include "weather/patches/sky_light.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/solar.h"
 
 namespace petrichor::weather {
 namespace {
@@ -441,6 +443,42 @@ TEST(PatchWeather, WallsInTheSunAndSnowLightTheirNeighbours)
         EXPECT_GE(patches.state(0).shortwave_w_m2, 0.0);
     }
     EXPECT_GT(most, 0.9);
+}
+
+// A file whose clock is an hour off has light of a high sun while it rises: no wall gets more of it than
+// the clearest air lets through, and what the beam cannot bring comes from the sky.
+TEST(PatchWeather, AtSunriseAWallGetsNoMoreThanTheSunSends)
+{
+    ForcingTable table = steady(24, 5.0, 0.0, 2.0, 240, 0.0, 1427000000LL * 1000000);
+    for (std::size_t i = 0; i + 1 < table.rows(); ++i)
+        table[Field::Shortwave][i] = table[Field::Shortwave][i + 1];
+    Street street;
+    street.add();
+    const Direction around[] = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
+    for (const Direction& n : around) street.add(n, 3);
+    PatchWeather patches(table, street.set, {}, table.time_us.front());
+    int low = 0;
+    for (int quarter = 1; quarter < 95; ++quarter) {
+        const std::int64_t us = table.time_us.front() + quarter * kHourUs / 4;
+        // What a moment says is the mean since its hour began.
+        const std::int64_t began = us - (quarter % 4) * kHourUs / 4;
+        const auto up_at = [&](std::int64_t t) {
+            return sun_direction(t, table.site.latitude_deg, table.site.longitude_deg).up;
+        };
+        const double up = std::max(up_at(us), up_at(began));
+        if (quarter % 4 == 0 || std::min(up_at(us), up_at(began)) < 0.02 || up > 0.2) continue;
+        const double open =
+            0.5 * (value_at(table, Field::Shortwave, us) + value_at(table, Field::Shortwave, began));
+        if (open < 50.0) continue;
+        ++low;
+        patches.go_to(us);
+        const double beam = clear_beam_w_m2(1361.0, std::acos(up), table.site.elevation_m);
+        for (std::size_t wall = 1; wall <= 4; ++wall)
+            EXPECT_LT(patches.state(wall).shortwave_w_m2, beam + 1.2 * open) << quarter;
+        EXPECT_NEAR(patches.state(0).shortwave_w_m2, open, 0.6 * open) << quarter;
+        EXPECT_GT(patches.state(1).shortwave_w_m2 + patches.state(3).shortwave_w_m2, open) << quarter;
+    }
+    EXPECT_GE(low, 2);
 }
 
 // Blades are a skin of their own: dew falls on them while the soil below is warm.

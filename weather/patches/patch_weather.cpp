@@ -334,6 +334,16 @@ PatchState PatchWeather::state(std::size_t patch) const
     return out;
 }
 
+PatchState PatchWeather::open() const
+{
+    return state(impl_->tables.twin);
+}
+
+std::uint32_t PatchWeather::open_kind() const
+{
+    return impl_->tables.set.patches[impl_->tables.twin].kind;
+}
+
 std::span<const double> PatchWeather::pond_volumes_m3() const
 {
     return impl_->moment.pond_m3;

@@ -99,6 +99,9 @@ public:
     /// Goes to a moment; what follows describes it.
     void go_to(std::int64_t utc_us);
     PatchState state(std::size_t patch) const;
+    /// Of level ground in the open, of the kind that most level ground of the scene is made of.
+    PatchState open() const;
+    std::uint32_t open_kind() const;
     std::span<const double> pond_volumes_m3() const;
     /// Heat of the water over each pond (pond_ice.h), J/kg; 0 where none stands. Ice floats: levels and
     /// volumes hold it as the water that it is.

@@ -29,6 +29,17 @@ double relative_air_mass(double zenith_rad)
                   0.50572 * detail::power(96.07995 - degrees, -1.6364));
 }
 
+double clear_beam_w_m2(double outside, double zenith_rad, double height_m)
+{
+    constexpr double kTurbidity = 2.0, kAirHeight_m = 8434.5;
+    const double above_m = std::isfinite(height_m) ? height_m : 0.0;
+    const double m = relative_air_mass(zenith_rad) * detail::exponential(-above_m / kAirHeight_m);
+    const double inverse_depth =
+        m > 20.0 ? 10.4 + 0.718 * m
+                 : 6.6296 + m * (1.7513 + m * (-0.1202 + m * (0.0065 - 0.00013 * m)));
+    return outside * detail::exponential(-0.8662 * kTurbidity * m / inverse_depth);
+}
+
 SkyGlow perez_glow(double diffuse, double direct, double outside, double zenith_rad)
 {
     const double z3 = 1.041 * zenith_rad * zenith_rad * zenith_rad;
@@ -40,6 +51,13 @@ SkyGlow perez_glow(double diffuse, double direct, double outside, double zenith_
     SkyGlow glow;
     glow.sun = std::max(0.0, f[0] + f[1] * brightness + f[2] * zenith_rad);
     glow.horizon = f[3] + f[4] * brightness + f[5] * zenith_rad;
+    return glow;
+}
+
+SkyGlow glow_below(SkyGlow glow, double diffuse, double all, double most)
+{
+    glow.sun = std::min(glow.sun * diffuse, std::max(0.0, most)) / all;
+    glow.horizon *= diffuse / all;
     return glow;
 }
 

@@ -8,6 +8,11 @@ namespace petrichor::weather {
 /// Air mass relative to the zenith, Kasten & Young 1989. `zenith_rad` 0 .. pi/2.
 double relative_air_mass(double zenith_rad);
 
+/// What the sun sends through the clearest air there is (Linke turbidity 2), W/m2 on a plane that faces
+/// it: the beam of ESRA, Rigollier et al. 2000, with the optical depth of Kasten 1996.
+///   outside   W/m2 outside the air on that plane; height_m above the sea, of NaN: 0
+double clear_beam_w_m2(double outside_w_m2, double zenith_rad, double height_m);
+
 /// How the diffuse light of the sky gathers about the sun and along the horizon.
 struct SkyGlow {
     double sun = 0.0;      ///< F1, 0..1 of it comes from about the sun
@@ -17,6 +22,9 @@ struct SkyGlow {
 ///   diffuse   W/m2 on flat ground, > 0; direct: W/m2 on a plane that faces the sun, >= 0
 ///   outside   W/m2 outside the air on that plane, > 0
 SkyGlow perez_glow(double diffuse_w_m2, double direct_w_m2, double outside_w_m2, double zenith_rad);
+/// The same glow when the sky sends `all` instead of `diffuse` and what is more comes evenly; about the
+/// sun no more than `most`, W/m2 on flat ground.
+SkyGlow glow_below(SkyGlow glow, double diffuse_w_m2, double all_w_m2, double most_w_m2);
 /// What a patch sees of the sky, for its diffuse light.
 struct SkySeen {
     double sky = 1.0;        ///< SkyShares::sky

@@ -167,11 +167,17 @@ std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, c
         }
         const HourSun sun = sun_over(town, site, day, measured.begin_us);
         const double global = std::max(0.0, now(Field::Shortwave));
-        const double diffuse = std::clamp(now(Field::Diffuse), 0.0, global);
+        const double zenith_rad = std::acos(std::clamp(sun.up, 0.0, 1.0));
+        const double clear = weather::clear_beam_w_m2(sun.outside_w_m2, zenith_rad,
+                                                      day.table.site.elevation_m);
+        const double glowing = std::clamp(now(Field::Diffuse), 0.0, global);
+        const double diffuse = std::max(glowing, global - clear * sun.up);
         weather::SkyGlow glow;
-        if (sun.up > 0.0 && diffuse > 1e-3) {
-            glow = weather::perez_glow(diffuse, std::min((global - diffuse) / sun.up, sun.outside_w_m2),
-                                       sun.outside_w_m2, std::acos(std::min(sun.up, 1.0)));
+        if (sun.up > 0.0 && glowing > 1e-3) {
+            const double direct = (global - diffuse) / sun.up;
+            glow = weather::glow_below(
+                weather::perez_glow(glowing, direct, sun.outside_w_m2, zenith_rad), glowing, diffuse,
+                (clear - direct) * std::max(sun.up, kCos85));
         }
         UrbanRadiation r;
         r.begin_us = measured.begin_us;

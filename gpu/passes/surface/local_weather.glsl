@@ -55,6 +55,17 @@ float level_in_relief(SurfaceInput at, uvec2 near, float other)
     return -1.0;
 }
 
+// What the open holds, under whatever shelters a point of it.
+void below_what_is_near(inout LocalWeather here, SurfaceInput at)
+{
+    const Exposure open = exposure_to_sky(at, true);
+    here.open *= min(open.rain, 1.0);
+    here.film *= film_share(open.rain);
+    if (!here.volume) here.flood *= flood_share(open.rain);
+    if (SNOW != 0u) here.snow = cover_of_share(here.snow, open.snow * drifted_share(at.position.xz));
+    here.frost *= min(open.sky, 1.0);
+}
+
 LocalWeather local_weather(SurfaceInput at)
 {
     if (PLACE == 0u) return weather_everywhere(at, true);
@@ -64,9 +75,12 @@ LocalWeather local_weather(SurfaceInput at)
     const vec3 first = vec3(hash_f(seed), hash_f(seed ^ 0x9e3779b9u), hash_f(seed ^ 0x7f4a7c15u));
     const vec3 turn =
         fract(first + float(frame.sample_index) * vec3(0.8191725, 0.6710436, 0.5497005));
-    const uvec2 near = place_patches(at.position, at.normal, turn - 0.5);
+    uvec2 near = place_patches(at.position, at.normal, turn - 0.5);
+    const bool beyond = near.y == kNoPatch;
+    // Ground goes on beyond its patches as they are in the open, or a border would show.
+    if (beyond && place_open(at.normal, at.material_id)) near = uvec2(frame.place.open_patch);
     if (near.y == kNoPatch) {
-        LocalWeather everywhere = weather_everywhere(at, near.y == kNoPatch);
+        LocalWeather everywhere = weather_everywhere(at, true);
         everywhere.pond_m = at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
         return everywhere;
     }
@@ -84,6 +98,7 @@ LocalWeather local_weather(SurfaceInput at)
     here.volume = WATER != 0u && second_texel.w > 0.0;
     here.level = here.volume ? level_in_relief(at, near, second_texel.w) : 0.0;
     here.placed = true;
+    if (beyond) below_what_is_near(here, at);
     return here;
 }
 

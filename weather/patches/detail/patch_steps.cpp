@@ -65,9 +65,19 @@ void set_sun(SkyStep& sky, const ForcingTable& table, const PatchParams& params,
         sky.diffuse = std::clamp(value_at(table, Field::Diffuse, middle), 0.0, sky.global);
     else
         sky.diffuse = sky.global * diffuse_fraction(sky.global, up, outside);
-    if (!(sky.diffuse > kLeastLight_w_m2)) return;
-    const double direct = std::min((sky.global - sky.diffuse) / up, outside);
-    sky.glow = perez_glow(sky.diffuse, direct, outside, arc_cosine(std::min(up, 1.0)));
+    // Between two rows about sunrise the file's line runs above what a sun so low can send: a wall
+    // that faces it would get ten times of that. What the beam cannot bring is of all of the sky.
+    const double zenith_rad = arc_cosine(std::min(up, 1.0));
+    const double clear = clear_beam_w_m2(outside, zenith_rad, site.elevation_m);
+    double most = clear;
+    if (has_every_row(table, Field::Direct))
+        most = std::min(most, std::max(0.0, value_at(table, Field::Direct, middle)));
+    const double glowing = sky.diffuse;
+    sky.diffuse = std::max(sky.diffuse, sky.global - most * up);
+    if (!(glowing > kLeastLight_w_m2)) return;
+    const double direct = (sky.global - sky.diffuse) / up;
+    sky.glow = glow_below(perez_glow(glowing, direct, outside, zenith_rad), glowing, sky.diffuse,
+                          (clear - direct) * std::max(up, kCos85));
 }
 
 void set_wind(SkyStep& sky, const ForcingTable& table, const PatchParams& params,
