@@ -80,6 +80,26 @@ private:
     std::streambuf* to_;
 };
 
+// Of the command that was called, for those of its words that begin as an option does and are none:
+// "; no option \"--sampels\". Did you mean \"--samples\"?"; else "".
+std::string meant_options(const CLI::App& app)
+{
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    std::vector<std::string> options;
+    for (const CLI::Option* option : command->get_options()) {
+        for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    }
+    std::string said;
+    for (const std::string& word : command->remaining()) {
+        if (word.rfind("--", 0) != 0) continue;
+        const std::string name = word.substr(0, word.find('='));
+        const std::string meant = did_you_mean(name, options);
+        if (!meant.empty()) said.append("; no option \"").append(name).append("\".").append(meant);
+    }
+    return said;
+}
+
 // What was printed has arrived, or the program did not do what it was asked to. Whoever closed the
 // pipe (head, less) knows that already and needs no message.
 int with_output_checked(int code)
@@ -127,7 +147,7 @@ int run(int argc, char** argv)
     } catch (const CLI::Success& done) {  // --help, --version
         return app.exit(done);
     } catch (const CLI::ParseError& wrong) {
-        std::cerr << "error petrichor: " << wrong.what()
+        std::cerr << "error petrichor: " << wrong.what() << meant_options(app)
                   << "\n  Run with --help to see what is accepted.\n";
         return cli::kExitUser;
     } catch (const cli::ExitCode& exit) {

@@ -77,7 +77,8 @@ INSTANTIATE_TEST_SUITE_P(
     Table, ProgramMistake,
     testing::Values(
         Mistake{"command", {"rendr"}, "Did you mean \"render\"?"},
-        Mistake{"option", {"render", "--framse", "1"}, "--framse"},
+        Mistake{"option", {"render", "--framse", "1"}, "Did you mean \"--frames\"?"},
+        Mistake{"option_of_a_command", {"texture", "mips", "a.png", "--flter=box"}, "Did you mean \"--filter\"?"},
         Mistake{"folder", {"render", "."}, "is a folder"}, Mistake{"no_command", {}, "subcommand"},
         Mistake{"size_zero", {"render", "scene.glb", "--size", "0x0"}, "0x0"},
         Mistake{"size_words", {"render", "scene.glb", "--size", "large"}, "WIDTHxHEIGHT"},
