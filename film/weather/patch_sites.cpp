@@ -62,6 +62,12 @@ constexpr NameWord kWords[] = {
     {"leaves", "lawn"},
     {"foliage", "lawn"},
     {"hedge", "lawn"},
+    {"plant", "lawn"},
+    {"leaf", "lawn"},
+    {"bush", "lawn"},
+    {"ivy", "lawn"},
+    {"fern", "lawn"},
+    {"moss", "lawn"},
     {"metal", "roof_metal"},
     {"steel", "roof_metal"},
     {"zinc", "roof_metal"},
@@ -212,12 +218,15 @@ public:
         return weather::wall_rain_factor(static_cast<double>(above_ground_m) / height, edge);
     }
 
-    // What is behind an upright patch: a house is as wide as a room at least, has a wall across
-    // that is seen from behind, and a roof as high as a door; what is thin shows its own back.
+    // What is behind an upright patch: what is thin shows its own back; a house is as wide as a room
+    // at least, has a wall across that is seen from behind, and a roof as high as a door. Thin comes
+    // first, or a bush behind a garden wall would be its room.
     GroundForm behind(std::uint32_t i) const
     {
         const glm::vec3 n = patches_.normal[i], c = patches_.position_m[i];
         if (std::abs(n.y) >= kWallUp) return GroundForm::Steep;
+        const scene::RayHit thin = tracer_.nearest({c - n * 0.01f, -n, kSlabMost_m});
+        if (thin.back && thin.distance_m < kIntoHouse_m) return GroundForm::Slab;
         const glm::vec3 inside = c - n * kIntoHouse_m;
         const scene::RayHit across = tracer_.nearest({inside, -n, kAcrossHouse_m});
         if (across.back && across.distance_m >= kRoomLeast_m - kIntoHouse_m) {
@@ -227,8 +236,7 @@ public:
             if (up.hit() && (!down.hit() || up.distance_m + down.distance_m >= kDoor_m))
                 return GroundForm::House;
         }
-        return tracer_.nearest({c - n * 0.01f, -n, kSlabMost_m}).back ? GroundForm::Slab
-                                                                      : GroundForm::Steep;
+        return thin.back ? GroundForm::Slab : GroundForm::Steep;
     }
 
 private:
