@@ -117,6 +117,7 @@ struct ArtistPlaces::Impl {
     std::vector<Solved> solved;
     std::vector<std::uint32_t> solved_of;  // of a patch
     std::vector<float> rain, sky;          // of a patch
+    std::vector<std::uint32_t> material;   // of a patch
     Solved open;
 };
 
@@ -130,7 +131,8 @@ ArtistPlaces::ArtistPlaces(const SceneSites& sites, const WeatherScript& script,
     climate.wind_m_s = weather::value_at(script.sky.wind_m_s, middle_us);
     climate.wind_from_deg = weather::value_at(script.sky.wind_from_deg, middle_us);
     auto impl = std::make_shared<Impl>(
-        Impl{sites.shape, sites.ground.basins, {}, {}, {}, {}, {script, script.solve()}});
+        Impl{sites.shape, sites.ground.basins, {}, {}, {}, {}, sites.material,
+             {script, script.solve()}});
     std::map<Class, std::uint32_t> known;
     for (const weather::WeatherPatch& patch : sites.set.patches) {
         const auto factors = weather::place_factors(patch, sites.set.kinds[patch.kind], climate);
@@ -179,7 +181,7 @@ std::shared_ptr<const gpu::PlaceWeather> ArtistPlaces::at(double time_s) const
         place->states.emplace_back(here.film_mm, here.puddle_depth_m, here.snow_depth_m,
                                    here.ice_kg_m2);
         place->states.emplace_back(static_cast<float>(1.0 - frozen), here.air_temperature_k,
-                                   m.rain[i], 1.0f);
+                                   m.rain[i], static_cast<float>(m.material[i]));
     }
     // Everywhere the same film has run into the hollows.
     scene::BasinWater water(m.basins);

@@ -24,6 +24,7 @@ constexpr int kWallSteps = 64;
 constexpr double kNoHollow_mm = 0.01;  // none, for a model that wants some
 // Walls of houses by what they are made of, and half of what stands free.
 constexpr double kBoard_w_m_k = 0.3, kBoard_m = 0.1, kMasonry_m = 0.3, kSlab_m = 0.1;
+constexpr double kLeaves_m = 0.02;  // of leaves and blades, and the water in them
 constexpr float kIntoHouse_m = 0.5f, kAcrossHouse_m = 60.0f, kSlabMost_m = 1.2f;
 constexpr float kRoomLeast_m = 1.5f, kDoor_m = 2.0f;
 constexpr double kGroundNear_m = 0.3;  // of the height field: higher up it is no ground
@@ -57,11 +58,7 @@ constexpr NameWord kWords[] = {
     {"grass", "lawn"},
     {"lawn", "lawn"},
     {"meadow", "lawn"},
-    // Thin, with little heat in it: what blades are.
-    {"needle", "lawn"},
-    {"leaves", "lawn"},
-    {"foliage", "lawn"},
-    {"hedge", "lawn"},
+    {"moss", "lawn"},
     {"metal", "roof_metal"},
     {"steel", "roof_metal"},
     {"zinc", "roof_metal"},
@@ -77,6 +74,10 @@ constexpr NameWord kWords[] = {
     {"marble", "rock"},
 };
 
+// Thin, with little heat in it and air around: as a lawn's blades, but no soil behind.
+constexpr const char* kFoliage[] = {"needle", "leaves", "leaf", "foliage", "hedge",
+                                    "plant",  "bush",   "ivy",  "fern"};
+
 std::string lower(const std::string& text)
 {
     std::string out;
@@ -87,6 +88,15 @@ std::string lower(const std::string& text)
 bool is_leaves(const scene::Material& material)
 {
     return material.alpha_mode == scene::AlphaMode::Mask;
+}
+
+bool is_foliage(const scene::Material& material)
+{
+    const std::string name = lower(material.name);
+    return is_leaves(material) ||
+           std::any_of(std::begin(kFoliage), std::end(kFoliage), [&](const char* word) {
+               return name.find(word) != std::string::npos;
+           });
 }
 
 double luminance(const glm::vec3& rgb)
@@ -142,9 +152,10 @@ std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const sc
                     store_of_relief(reliefs.of_material[m], form == GroundForm::Hollow);
             const bool solid = kind.surface.conductivity_w_m_k > kBoard_w_m_k;
             if (form >= GroundForm::House)
-                kind.surface.layers = {{form == GroundForm::Slab ? kSlab_m
-                                        : solid                  ? kMasonry_m
-                                                                 : kBoard_m,
+                kind.surface.layers = {{is_foliage(scene.materials[m])  ? kLeaves_m
+                                        : form == GroundForm::Slab ? kSlab_m
+                                        : solid                    ? kMasonry_m
+                                                                   : kBoard_m,
                                         kind.surface.conductivity_w_m_k,
                                         kind.surface.heat_capacity_j_m3_k}};
             kind.room_behind = form == GroundForm::House;
@@ -162,8 +173,9 @@ struct Below {
 
 class Ways {
 public:
-    Ways(const scene::Patches& patches, const scene::Tracer& tracer)
-        : patches_(patches), tracer_(tracer)
+    // soft: by material, leaves and blades.
+    Ways(const scene::Patches& patches, const scene::Tracer& tracer, std::vector<bool> soft)
+        : patches_(patches), tracer_(tracer), soft_(std::move(soft))
     {
     }
 
@@ -212,29 +224,48 @@ public:
         return weather::wall_rain_factor(static_cast<double>(above_ground_m) / height, edge);
     }
 
-    // What is behind an upright patch: a house is as wide as a room at least, has a wall across
-    // that is seen from behind, and a roof as high as a door; what is thin shows its own back.
+    // What is behind an upright patch: a house is as wide as a room at least, has a wall across that
+    // is seen from behind, and a roof as high as a door, neither of leaves: a bush behind a garden wall
+    // is no room. What is thin shows its own back.
     GroundForm behind(std::uint32_t i) const
     {
         const glm::vec3 n = patches_.normal[i], c = patches_.position_m[i];
         if (std::abs(n.y) >= kWallUp) return GroundForm::Steep;
         const glm::vec3 inside = c - n * kIntoHouse_m;
         const scene::RayHit across = tracer_.nearest({inside, -n, kAcrossHouse_m});
-        if (across.back && across.distance_m >= kRoomLeast_m - kIntoHouse_m) {
+        if (across.back && across.distance_m >= kRoomLeast_m - kIntoHouse_m && !soft(across)) {
             const scene::RayHit up = tracer_.nearest({inside, {0.0f, 1.0f, 0.0f}, kAcrossHouse_m});
             const scene::RayHit down =
                 tracer_.nearest({inside, {0.0f, -1.0f, 0.0f}, kAcrossHouse_m});
-            if (up.hit() && (!down.hit() || up.distance_m + down.distance_m >= kDoor_m))
+            if (up.hit() && !soft(up) && (!down.hit() || up.distance_m + down.distance_m >= kDoor_m))
                 return GroundForm::House;
         }
-        return tracer_.nearest({c - n * 0.01f, -n, kSlabMost_m}).back ? GroundForm::Slab
-                                                                      : GroundForm::Steep;
+        return is_thin(c, n) ? GroundForm::Slab : GroundForm::Steep;
     }
 
 private:
     const scene::Patches& patches_;
     const scene::Tracer& tracer_;
+    std::vector<bool> soft_;
 
+    // Whether a far side is seen from within. The middle of a patch may float before its wall, where a
+    // ledge above it is of the same patch: fronts are gone through.
+    bool is_thin(glm::vec3 at, const glm::vec3& n) const
+    {
+        float left_m = kSlabMost_m;
+        at -= n * 0.01f;
+        for (int k = 0; k < 3 && left_m > 0.0f; ++k) {
+            const scene::RayHit hit = tracer_.nearest({at, -n, left_m});
+            if (!hit.hit() || hit.back) return hit.back;
+            at -= n * (hit.distance_m + 0.001f);
+            left_m -= hit.distance_m + 0.001f;
+        }
+        return false;
+    }
+    bool soft(const scene::RayHit& hit) const
+    {
+        return soft_[tracer_.triangles().material(hit.triangle)];
+    }
     // How far the same wall goes on in a direction.
     float run_of_wall(std::uint32_t i, const glm::vec3& way) const
     {
@@ -321,6 +352,7 @@ weather::Surface surface_of_material(const scene::Material& material,
                                      const weather::Surface& otherwise)
 {
     const std::string name = lower(material.name);
+    if (is_foliage(material) && !is_leaves(material)) return weather::surface_preset("lawn");
     for (const NameWord& word : kWords)
         if (name.find(word.word) != std::string::npos) return weather::surface_preset(word.surface);
     if (material.metallic > 0.5f && !material.metallic_roughness_texture.present())
@@ -334,9 +366,12 @@ weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer
                               const WaterReliefs& reliefs)
 {
     const scene::Scene& scene = tracer.triangles().scene();
-    const Ways ways(patches, tracer);
     weather::PatchSet set;
     set.kinds = kinds_of(patches, scene, surfaces, otherwise, reliefs);
+    std::vector<bool> soft;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        soft.push_back(set.kinds[m].like_air || set.kinds[m].surface.name == "lawn");
+    const Ways ways(patches, tracer, soft);
     set.ponds = ground.basins.pits;
     set.patches.resize(patches.count);
     for (std::uint32_t i = 0; i < patches.count; ++i) {
@@ -346,8 +381,9 @@ weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer
         p.area_m2 = std::max(static_cast<double>(patches.area_m2[i]), 1e-6);
         p.height_m = static_cast<double>(patches.position_m[i].y);
         p.kind = patches.material[i];
-        const bool stands = !set.kinds[p.kind].like_air && set.kinds[p.kind].surface.layers.empty();
-        const GroundForm form = !holds_water(scene.materials[p.kind], patches.normal[i])
+        const bool stands = !soft[p.kind] && set.kinds[p.kind].surface.layers.empty();
+        const GroundForm form = is_foliage(scene.materials[p.kind]) ? GroundForm::Slab
+                                : !holds_water(scene.materials[p.kind], patches.normal[i])
                                     ? (stands ? ways.behind(i) : GroundForm::Steep)
                                 : reliefs.hollow[i] ? GroundForm::Hollow
                                                     : GroundForm::Level;

@@ -98,6 +98,8 @@ TEST(PatchSites, NamesSayWhatThingsAreMadeOf)
     EXPECT_EQ(kind("ROOF tiles"), "roof_tile");
     EXPECT_EQ(kind("zinc roof"), "roof_metal");
     EXPECT_EQ(kind("Material.001"), "rock");
+    EXPECT_EQ(kind("Plants"), "lawn");
+    EXPECT_EQ(kind("planks"), "wood");
     EXPECT_EQ(kind("Material.001", 1.0f), "roof_metal");
 }
 
@@ -132,18 +134,31 @@ TEST(PatchSites, HousesHaveRoomsBehindTheirWallsAndGardenWallsAir)
     scene::Scene scene = yard();
     add_box(scene, 1, {-4, 0, -14}, {4, 3, -8});      // a house
     add_box(scene, 1, {-4, 0, 10}, {4, 2, 10.4f});    // a garden wall
+    add_box(scene, 1, {-4, 1.85f, 9.85f}, {4, 2.1f, 10.55f});  // its coping
     add_box(scene, 1, {1, 0, -7.9f}, {2, 1, -7.5f});  // a chest before the house
+    // A bush behind the garden wall is no room of it.
+    scene::Material bush;
+    bush.name = "Bush";
+    bush.double_sided = true;
+    bush.metallic = 0.0f;
+    scene.materials.push_back(bush);
+    add_quad(scene, 3, {-4, 0, 13}, {8, 0, 0}, {0, 3, 0});
+    add_quad(scene, 3, {-4, 3, 13}, {8, 0, 0}, {0, 0, -2.6f});
     const scene::Triangles triangles(scene, {});
     const scene::Tracer tracer(triangles);
     const scene::Patches patches = cut(tracer);
     const auto surfaces = scene::patch_surfaces(patches, triangles, {});
     const SceneSites sites =
         scene_sites(scene, patches, tracer, surfaces, {}, weather::surface_preset("asphalt"));
-    std::size_t house = 0, garden = 0, chest = 0, lone = 0;
+    std::size_t house = 0, garden = 0, chest = 0, lone = 0, leaves = 0;
     for (std::uint32_t i = 0; i < patches.count; ++i) {
         const glm::vec3 at = patches.position_m[i];
         const weather::PatchKind& kind = sites.set.kinds[sites.set.patches[i].kind];
-        if (std::abs(patches.normal[i].y) > 0.3f) {
+        if (patches.material[i] == 3) {
+            ++leaves;
+            EXPECT_TRUE(kind.surface.open_below && !kind.room_behind);
+            EXPECT_LT(kind.surface.layers.at(0).thickness_m, 0.05);
+        } else if (std::abs(patches.normal[i].y) > 0.3f) {
             EXPECT_FALSE(kind.room_behind || kind.surface.open_below) << at.x << " " << at.z;
         } else if (at.z < -7.95f) {
             ++house;
@@ -166,6 +181,7 @@ TEST(PatchSites, HousesHaveRoomsBehindTheirWallsAndGardenWallsAir)
     EXPECT_GT(garden, 10u);
     EXPECT_GT(chest, 2u);
     EXPECT_GT(lone, 20u);
+    EXPECT_GT(leaves, 50u);
 }
 
 TEST(PatchSites, WaterGoesWhereTheSceneLeadsIt)

@@ -25,6 +25,7 @@ constexpr std::uint32_t kMostPatches = 16000;
 constexpr int kRays = 1024;
 constexpr int kSuns = 12;  // of an hour
 constexpr double kMostBeamRatio = 10.0;
+constexpr double kClear = 0.1;  // of cloud
 constexpr double kCos85 = 0.08715574274765817;
 
 // Where a sensor looks, by UrbanFace.
@@ -199,6 +200,13 @@ std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, c
                 r.longwave[f] += heat[patch] / kRays;
             }
         }
+        const Sensor& up = town.sensors[kFaceDown];
+        if (now(Field::Cloud) < kClear) {
+            r.clear_sky_w_m2 = up.sky_share * (now(Field::Longwave) +
+                                               weather::warm_horizon_w_m2(
+                                                   up.sky.log_secant, now(Field::Cloud), air_k));
+            r.black_sky_w_m2 = up.sky_share * air_w_m2;
+        }
         out.push_back(r);
     }
     return out;
@@ -226,9 +234,13 @@ std::vector<SkillRow> urban_rows(const UrbanSite& site)
                             {"L up", &UrbanHour::longwave, kFaceUp, kFaceUp, {}},
                             {"L of the sides", &UrbanHour::longwave, kFaceNorth, kFaceWest, {}}};
     const Town town(site);
+    ErrorSum left, ours_more;  // of a black sky
     for (const UrbanDay& day : site.days) {
         const std::vector<UrbanRadiation> ours = radiation(town, site, day);
         for (std::size_t i = 0; i < ours.size(); ++i) {
+            const double more = ours[i].longwave[kFaceDown] - day.measured[i].longwave[kFaceDown];
+            left.add((ours[i].clear_sky_w_m2 - more) / ours[i].black_sky_w_m2);
+            ours_more.add(more / ours[i].black_sky_w_m2);
             for (Kind& kind : kinds) {
                 for (std::size_t f = kind.first; f <= kind.last; ++f)
                     kind.sum.add((ours[i].*kind.values)[f] - (day.measured[i].*kind.values)[f]);
@@ -239,6 +251,9 @@ std::vector<SkillRow> urban_rows(const UrbanSite& site)
     for (const Kind& kind : kinds)
         rows.push_back({site.name, kind.name, "W/m2", kind.sum.count(), kind.sum.rmse(),
                         kind.sum.bias(), "RMSE"});
+    if (left.count() > 0)
+        rows.push_back({site.name, "clear sky over black", "", left.count(), left.bias(),
+                        ours_more.bias(), "mean measured"});
     return rows;
 }
 
