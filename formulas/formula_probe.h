@@ -22,6 +22,7 @@
 #include "formulas/light/light_map.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/near_light.h"
+#include "formulas/light/occlusion_points.h"
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/patch_cells.h"
 #include "formulas/light/reflection_probe.h"
@@ -48,7 +49,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 57;
+SHARED_CONST int kProbeKinds = 58;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -462,6 +463,19 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 st = 2.0f * vec2(a.y, a.z) - vec2(1.0f);
         const vec3 d = cube_direction(int(min(a.x * 6.0f, 5.0f)), st);
         return vec4(d.x, d.y, d.z, cube_texel_weight(st));
+    }
+    if (kind == 57) {
+        OcclusionPoint p;
+        p.depth = 0.1f + a.z;
+        p.open = floor(255.0f * a.w) / 255.0f;
+        p.slope = vec2(occlusion_slope_of(192u + uint(16000.0f * a.x)), occlusion_slope_of(192u + uint(16000.0f * a.y)));
+        p.alone = uint(15.9f * b.x);
+        const OcclusionPoint q = occlusion_point_of(occlusion_point_code(p));
+        const float off = occlusion_off_plane(q, vec2(2.0f * b.y, -2.0f * b.z), q.depth + 0.001f * b.w, 0.002f);
+        const uint pixel = uint(3.9f * c.x);
+        const float spread = occlusion_from(q.open, vec2(c.y, c.z), vec2(c.z, a.x), vec2(c.w, a.y));
+        return vec4(spread, occlusion_fit(off) + float(q.alone), 0.01f * (q.slope.x + q.slope.y),
+                    occlusion_of_word(occlusion_in_word(q.open, pixel), pixel));
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);

@@ -147,6 +147,12 @@ float pixel_width_m(FrameConstants frame, float view_m)
     return (frame.flags & FRAME_ORTHOGRAPHIC) != 0u ? length(frame.ray_dx) : view_m * frame.pixel_angle;
 }
 
+// Change of depth from a pixel to the next on a surface that goes away from the eye as far as a pixel is wide.
+float pixel_depth_step(FrameConstants frame, float depth)
+{
+    return (frame.flags & FRAME_ORTHOGRAPHIC) != 0u ? length(frame.ray_dx) / frame.far_m : depth * frame.pixel_angle;
+}
+
 // Distance along the view axis.
 float linear_depth(FrameConstants frame, float depth)
 {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gpu/frame/frame_io.h"
+#include "gpu/frame/occlusion_blocks_io.h"
 #include "gpu/frame/patch_points_io.h"
 #include "gpu/frame/pixel_list_io.h"
 
@@ -161,7 +162,6 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.gbuffer.name = target(#name, VK_FORMAT_##format, color);
     GBUFFER_TABLE(ROW)
 #undef ROW
-    targets.occlusion = target("screen_occlusion", VK_FORMAT_R8_UNORM, storage);
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
@@ -224,6 +224,15 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     };
     const VkDeviceSize tiles = static_cast<VkDeviceSize>(divide_up(width, PIXEL_LIST_TILE)) *
                                static_cast<VkDeviceSize>(divide_up(height, PIXEL_LIST_TILE));
+    const auto blocks = [&](const char* name, VkDeviceSize words) {
+        return arena.buffer({.name = name,
+                             .size = static_cast<VkDeviceSize>(divide_up(width, OCCLUSION_BLOCK)) *
+                                     static_cast<VkDeviceSize>(divide_up(height, OCCLUSION_BLOCK)) * words * 4,
+                             .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                             .texel_format = VK_FORMAT_R32_UINT});
+    };
+    targets.occlusion = blocks("screen_occlusion", 1);
+    targets.occlusion_points = blocks("occlusion_points", 2);
     targets.pixel_list = list("pixel_list", pixels);
     targets.pixel_groups = groups("pixel_groups");
     targets.mirror_list = list("mirror_list", pixels);

@@ -53,7 +53,8 @@ struct FrameTargets {
     GBuffer gbuffer;
     GBufferRows rows;                     ///< filled by add_gbuffer_rows
     SamplerHandle nearest;                ///< for texelFetch
-    std::unique_ptr<GpuImage> occlusion;  ///< screen-space ambient occlusion, 1 open
+    std::unique_ptr<GpuBuffer> occlusion;  ///< of the screen: a word a block, formulas/light/occlusion_points.h
+    std::unique_ptr<GpuBuffer> occlusion_points;  ///< of blocks
     std::unique_ptr<GpuImage>
         radiance;  ///< of this sample, before smooth reflections; alpha as below
     std::unique_ptr<GpuImage>
@@ -66,7 +67,7 @@ struct FrameTargets {
     std::unique_ptr<GpuBuffer> light_lists;
     std::unique_ptr<GpuBuffer> pixel_list;    ///< gpu/frame/pixel_list_io.h
     std::unique_ptr<GpuBuffer> pixel_groups;  ///< the arguments of a dispatch over it
-    std::unique_ptr<GpuBuffer> mirror_list;    ///< likewise of pixels that have a mirror_weight
+    std::unique_ptr<GpuBuffer> mirror_list;    ///< likewise of pixels that have a mirror_weight, or what occlusion lists
     std::unique_ptr<GpuBuffer> mirror_groups;
     TileList surface_tiles;  ///< that show a surface
     TileList open_tiles;     ///< that show none somewhere

@@ -10,4 +10,14 @@
 #define AMBIENT_OCCLUSION_TARGET 3
 #define AMBIENT_OCCLUSION_PIXELS 4  // gpu/frame/pixel_list_io.h
 
+// occlusion_points: what it shares with ambient_occlusion as there
+#define OCCLUSION_POINTS_TARGET 3
+#define OCCLUSION_POINTS_ALONE 5  // gpu/frame/pixel_list_io.h
+
+// spread_occlusion
+#define SPREAD_OCCLUSION_FRAME 0
+#define SPREAD_OCCLUSION_POINTS 1
+#define SPREAD_OCCLUSION_TARGET 2
+#define SPREAD_OCCLUSION_TILES 3  // gpu/frame/pixel_list_io.h
+
 #endif

@@ -10,6 +10,7 @@
 #include "formulas/light/area.h"
 #include "formulas/light/grain.h"
 #include "formulas/light/ltc.h"
+#include "formulas/light/occlusion_points.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/sun_cookie.h"
 #include "formulas/light/fog.h"
@@ -21,6 +22,7 @@
 #include "gpu/frame/layer_shares.glsl"
 #define PIXEL_LIST_BINDING LIGHTING_PIXELS
 #include "gpu/frame/pixel_list.glsl"
+#include "gpu/frame/occlusion_blocks.glsl"
 #include "gpu/passes/lights/lights_io.h"
 #include "formulas/light/reflection_probe.h"
 #include "gpu/passes/sky/sky_light_io.h"
@@ -67,7 +69,7 @@ LIGHTING_MODELS(ROW)
 
 layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
-layout(binding = LIGHTING_OCCLUSION) uniform sampler2D occlusion_map;
+layout(binding = LIGHTING_OCCLUSION) uniform usamplerBuffer occlusion_words;
 layout(binding = LIGHTING_SHADOW) uniform sampler2DArray shadow_map;
 layout(binding = LIGHTING_LAMP_SHADOWS) uniform sampler2DArray lamp_shadow_map;
 layout(binding = LIGHTING_SPECULAR) uniform samplerCube specular_map;
@@ -199,6 +201,13 @@ struct Ambient {
 };
 
 #include "gpu/passes/lighting/rough_mirror.glsl"
+
+// What near things leave of the light, by the picture.
+float screen_open(ivec2 texel)
+{
+    const uint word = texelFetch(occlusion_words, occlusion_block(texel / OCCLUSION_BLOCK, frame.size)).r;
+    return occlusion_of_word(word, uint(texel.x & 1) + 2u * uint(texel.y & 1));
+}
 
 // From the patches around; nothing (open < 0) where there are none.
 Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
@@ -476,7 +485,7 @@ void main()
         }
         if (IMAGE_BASED_LIGHT != 0u) {
             const float screen =
-                AMBIENT_OCCLUSION != 0u ? texelFetch(occlusion_map, texel, 0).r : 1.0;
+                AMBIENT_OCCLUSION != 0u ? screen_open(texel) : 1.0;
             const Ambient around = ambient_light(p, g.base_normal, m.occlusion, screen, view_m, texel);
             const vec3 seen = around.mirrored;
             const ProbesHere probed = probes_here(p, around);

@@ -46,7 +46,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_PICTURE, variant.mirrors_picture}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
-                     {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
+                     {LIGHTING_OCCLUSION, texels(*targets.occlusion)},
                      {LIGHTING_SHADOW, sampled(*depth_maps.shadow, depth_maps.plain)},
                      {LIGHTING_LAMP_SHADOWS, sampled(lamp_shadows.map(), depth_maps.plain)},
                      {LIGHTING_SPECULAR, sampled(*sky.specular, sky.linear)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/transparent/transparent_io.h"
 #include "gpu/upload/draw.h"
 
@@ -9,7 +10,7 @@ namespace petrichor::gpu {
 
 namespace {
 
-void add_clear(FrameGraph& graph, TransparentTargets& own, GpuImage& light,
+void add_clear(FrameGraph& graph, const TransparentTargets& own, GpuImage& light,
                const ConstantsRange& constants)
 {
     graph.add(ComputePass{
@@ -17,8 +18,7 @@ void add_clear(FrameGraph& graph, TransparentTargets& own, GpuImage& light,
         .shader = "transparent_clear.comp",
         .constants = {},
         .bindings = {{TRANSPARENT_CLEAR_FRAME, frame_binding(constants)},
-                     {TRANSPARENT_CLEAR_LIGHT, storage(light)},
-                     {TRANSPARENT_CLEAR_OCCLUSION, storage(*own.layer.occlusion)}},
+                     {TRANSPARENT_CLEAR_LIGHT, storage(light)}},
         .push = {},
         .groups = groups_over(own.layer.width, own.layer.height, TRANSPARENT_TILE)});
 }
@@ -65,6 +65,7 @@ void begin_transparent(FrameGraph& graph, TransparentTargets& own, LightParts& p
 {
     if (parts.split) clear_light_parts(graph, *parts.solid);
     add_clear(graph, own, *own.solid, constants);
+    add_no_occlusion(graph, own.layer, "transparent");
 }
 
 void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTargets& own,

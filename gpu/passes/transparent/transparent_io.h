@@ -7,7 +7,6 @@
 // transparent_clear
 #define TRANSPARENT_CLEAR_FRAME 0
 #define TRANSPARENT_CLEAR_LIGHT 1
-#define TRANSPARENT_CLEAR_OCCLUSION 2
 
 // transparent_over
 #define TRANSPARENT_OVER_SPEC_FIRST 0  // 1: no layer is before
