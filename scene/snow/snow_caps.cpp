@@ -22,11 +22,12 @@ using glm::vec2;
 using glm::vec3;
 
 constexpr float kSteepest = 0.4f;     // y of the normals of what holds snow
-constexpr float kCoarse_m = 0.8f;     // how far apart the sky is looked at
+constexpr float kCoarse_m = 0.4f;     // how far apart the sky is looked at
 constexpr int kRays = 16;
 constexpr float kHidden = 0.1f;       // of the rays
 constexpr float kCone = 0.6f;         // cosine from the zenith of the farthest ray
 constexpr float kBuried_m = 0.06f;    // what stands so high over level ground hides nothing from the sky
+constexpr float kLevel = 0.85f;       // a gutter still is
 constexpr float kCoarser = 1.41421356f;
 constexpr int kTries = 12;
 constexpr float kAlong = 5.0f;        // times finer across an edge than along it
@@ -170,7 +171,7 @@ void look_up(CutMesh& mesh, const Tracer& tracer, Keeper keeper)
         for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
             const vec3 middle = (p.positions[p.indices[k]] + p.positions[p.indices[k + 1]] +
                                  p.positions[p.indices[k + 2]]) / 3.0f;
-            const bool level = p.normals[p.indices[k]].y > 0.97f;
+            const bool level = p.normals[p.indices[k]].y > kLevel;
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::uint32_t v = p.indices[k + c];
                 const std::uint32_t point = mesh.points[i][v];
@@ -303,44 +304,60 @@ float swell(const vec3& at, float size_m, std::uint32_t seed, float edge_m)
     return 0.5f + carried * (smooth_noise(at, size_m, seed) - 0.5f);
 }
 
-void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges, const EdgeGrid& closed,
-                 const SnowCapOptions& options)
+// What of the depth lies at each point.
+void fill_shares(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals, const SnowCapOptions& options)
 {
-    const std::vector<vec3> normals = point_normals(mesh);
-    const std::vector<float> longest = longest_edges_m(mesh, normals.size());
     caps.points.resize(normals.size());
-    std::vector<bool> done(normals.size(), false);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& p = mesh.primitives[i];
         for (std::size_t v = 0; v < p.positions.size(); ++v) {
             const std::uint32_t number = mesh.points[i][v];
-            if (done[number]) continue;
-            done[number] = true;
             SnowCaps::Point& point = caps.points[number];
-            const vec3& at = p.positions[v];
-            point.base_m = at;
-            const NearEdge edge = edges.nearest(at, normals[number]);
-            point.edge_m = edge.distance_m;
-            point.support_m = edge.gap_m < 1.0f ? EdgeGrid::kReach_m : edge.distance_m;
-            point.out = edge.out;
-            const NearEdge border = closed.nearest(at, normals[number]);
-            if (border.distance_m < 1.0e-3f) point.bridge_m = border.out * kBridge_m;
-            point.gap_m = edge.gap_m;
-            if (edge.distance_m < 1.0e-3f && edge.gap_m < 1.0f)
-                point.bridge_m = edge.out * (0.5f * edge.gap_m + 0.01f);
+            point.base_m = p.positions[v];
+            const float sky = p.weather[v].w;
+            const float ragged = 0.3f * (smooth_noise(point.base_m, 0.17f, 91u) - 0.5f);
+            const float open = shared::smooth_edge(kHidden, 0.8f, sky + ragged * std::min(1.0f, 4.0f * (1.0f - sky)));
             // EN 1991-1-3: all of it up to 30 degrees, none from 60 on.
             const float up = std::clamp(normals[number].y, 0.0f, 1.0f);
             const float slope = std::clamp((1.04719755f - std::acos(up)) / 0.52359878f, 0.0f, 1.0f);
-            const float ragged = 0.3f * (smooth_noise(at, 0.17f, 91u) - 0.5f);
-            const float open = shared::smooth_edge(kHidden, 0.8f, p.weather[v].w + ragged *
-                                                   std::min(1.0f, 4.0f * (1.0f - p.weather[v].w)));
-            const float far = nearest_eye_m(options, at) / options.reach_m;
-            const float pressed = options.pressed ? options.pressed(at) : 0.0f;
-            point.share =
-                open * slope * (1.0f - pressed) * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
-            point.uneven = 0.78f + 0.3f * swell(at, 1.7f, 11u, longest[number]) +
-                           0.14f * swell(at, 0.43f, 12u, longest[number]);
+            const float far = nearest_eye_m(options, point.base_m) / options.reach_m;
+            const float pressed = options.pressed ? options.pressed(point.base_m) : 0.0f;
+            point.share = open * slope * (1.0f - pressed) * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
         }
+    }
+}
+
+struct Grids {
+    const EdgeGrid &edges, &slots, &closed, &low;
+};
+
+void fill_points(SnowCaps& caps, const CutMesh& mesh, const Grids& grids, const std::vector<vec3>& normals)
+{
+    const std::vector<float> longest = longest_edges_m(mesh, normals.size());
+    for (std::size_t number = 0; number < caps.points.size(); ++number) {
+        SnowCaps::Point& point = caps.points[number];
+        const vec3& at = point.base_m;
+        const vec3& normal = normals[number];
+        if (const NearEdge edge = grids.edges.nearest(at, normal); edge.border != nullptr) {
+            point.edge_m = edge.distance_m;
+            point.out = edge.border->out;
+            point.beyond = edge.border->beyond;
+            point.above = edge.border->above;
+        }
+        point.support_m = point.edge_m;
+        if (const NearEdge border = grids.closed.nearest(at, normal); border.distance_m < 1.0e-3f)
+            point.bridge_m = border.border->out * kBridge_m;
+        if (const NearEdge step = grids.low.nearest(at, normal); step.border != nullptr) {
+            point.low_m = step.distance_m;
+            point.below = step.border->beyond;
+        }
+        if (const NearEdge slot = grids.slots.nearest(at, normal); slot.border != nullptr) {
+            point.slot_m = slot.distance_m;
+            point.gap_m = slot.border->gap_m;
+            if (point.slot_m < 1.0e-3f) point.bridge_m = slot.border->out * (0.5f * point.gap_m + 0.01f);
+        }
+        point.uneven = 0.78f + 0.3f * swell(at, 1.7f, 11u, longest[number]) +
+                       0.14f * swell(at, 0.43f, 12u, longest[number]);
     }
 }
 
@@ -409,8 +426,10 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     leave_out_ledges(mesh, tracer, Keeper(ground));
     look_up(mesh, tracer, Keeper(ground));
     detail::Borders borders = detail::borders_of(mesh, tracer);
-    const EdgeGrid edges(std::move(borders.open));
+    EdgeGrid edges(std::move(borders.open));
+    const EdgeGrid slots(std::move(borders.slots));
     const EdgeGrid closed(std::move(borders.closed));
+    EdgeGrid low(std::move(borders.low));
     // Fine at the rims, coarse between them.
     caps.finest_m = options.finest_m;
     SubdivideOptions fine;
@@ -432,23 +451,30 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         const vec3 normal = glm::cross(side, along);
         const float size = glm::length(normal);
         if (!(size > 0.0f)) return false;
-        const NearEdge edge = edges.nearest(middle, normal / size);
-        const float roomy = 0.7f * edge.distance_m;
-        if (length <= std::max(least, roomy)) return false;
         // A shoulder bends across its edge, and hardly along it.
-        const float across = std::abs(glm::dot(vec2(along.x, along.z), edge.out));
-        const float beside = std::sqrt(std::max(length * length - across * across, 0.0f));
-        return across > std::max(least, roomy) || beside > std::max({kAlong * least, kAlong_m, roomy});
+        const auto bends = [&](const NearEdge& edge) {
+            if (edge.border == nullptr) return false;
+            const float roomy = 0.7f * edge.distance_m;
+            if (length <= std::max(least, roomy)) return false;
+            const float across = std::abs(glm::dot(vec2(along.x, along.z), edge.border->out));
+            const float beside = std::sqrt(std::max(length * length - across * across, 0.0f));
+            return across > std::max(least, roomy) || beside > std::max({kAlong * least, kAlong_m, roomy});
+        };
+        return bends(edges.nearest(middle, normal / size)) || bends(slots.nearest(middle, normal / size));
     };
     mesh = subdivide(looked, fine);
     for (int i = 0; mesh.limited && i < kTries; ++i) {
         caps.finest_m *= kCoarser;
         mesh = subdivide(looked, fine);
     }
-    fill_points(caps, mesh, edges, closed, options);
+    const std::vector<vec3> normals = point_normals(mesh);
+    fill_shares(caps, mesh, normals, options);
+    detail::find_beyond(edges.edges(), caps);
+    detail::find_beyond(low.edges(), caps);
+    fill_points(caps, mesh, {edges, slots, closed, low}, normals);
     find_supports(caps, mesh);
     const std::vector<detail::Joint> joints = detail::joints_of(caps);
-    detail::hold_by_repose(caps, mesh, point_normals(mesh), joints);
+    detail::hold_by_repose(caps, mesh, normals, joints);
     detail::fill_relief(caps, mesh, joints, tracer);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         Primitive& p = mesh.primitives[i];

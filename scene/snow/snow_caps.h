@@ -26,6 +26,7 @@ struct SnowCapOptions {
 /// A cover over all that faces up and is open to the sky, ready to be lifted by the depth of the snow.
 struct SnowCaps {
     static constexpr std::uint32_t kUncovered = 0xffffffffu;
+    static constexpr std::uint32_t kNone = 0xffffffffu;
     struct Point {
         glm::vec3 base_m{0.0f};       ///< on the scene
         float share = 0.0f;           ///< of the depth on open ground, by shelter and slope
@@ -36,7 +37,12 @@ struct SnowCaps {
         float fill_m = 0.0f;          ///< up to the ground without its stones and joints: what deep snow lies on
         float uneven = 1.0f;          ///< times the depth
         glm::vec2 bridge_m{0.0f};     ///< at a border: into the wall, over the joint or the slot
-        float gap_m = 1.0e9f;         ///< how wide the slot behind that edge is; 1e9: it is none
+        float slot_m = 1.0e9f;        ///< to the nearest slot, as of a grating ..
+        float gap_m = 1.0e9f;         ///< .. and how wide it is
+        std::uint32_t beyond = kNone;  ///< the point on what lies beyond the edge, kNone: nothing near below it ..
+        std::uint32_t above = kNone;  ///< .. and one whose snow it sheds
+        float low_m = 1.0e9f;         ///< to the nearest edge of a step as low as a board ..
+        std::uint32_t below = kNone;  ///< .. and the point down there
     };
     struct Part {
         std::uint32_t material = 0;
@@ -84,7 +90,8 @@ struct SnowShape {
 
 /// depth_m: of each point, of snow on open ground there. Snow rounds off towards open edges as a quarter of
 /// an ellipse, as wide as deep and at most as wide as what it lies on, and stands out over them a
-/// little; it is nowhere deeper than what holds there. Where there is none the cap lies below the surface.
+/// little; it is nowhere deeper than what holds there. What edges shed leans against them: over a step that is lower
+/// than this bank and the snow below there is one sheet. Where there is none the cap lies below the surface.
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m);
 
 }  // namespace petrichor::scene

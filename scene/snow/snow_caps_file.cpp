@@ -9,8 +9,8 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x34706163;  // "cap4"
-static_assert(sizeof(SnowCaps::Point) == 14 * sizeof(float), "no padding: bytes are compared");
+constexpr std::uint32_t kMagic = 0x35706163;  // "cap5"
+static_assert(sizeof(SnowCaps::Point) == 19 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
     std::vector<std::byte> bytes;

@@ -24,6 +24,19 @@ float rounded(float s)
     return std::sqrt(std::max(1.0f - left * left, 0.0f));
 }
 
+// What rounding takes from an edge, (1 - pi / 4) of its depth squared a metre, leans against the step below it: a bank of
+// moist snow, 55 degrees steep. It is enough for a step that is so high over the snow at its foot, in depths.
+constexpr float kBankSlope = 1.428f;
+constexpr float kBank = 0.7829f;      // sqrt(2 kBankSlope (1 - pi / 4))
+constexpr float kAtRim_m = 1.0e-3f;
+constexpr float kIntoSnow_m = 0.03f;  // banks end so deep in the snow at their foot
+
+// How far in a cap is rounded off.
+float width_m(const SnowCaps::Point& p, float deep_m)
+{
+    return std::max(std::min(deep_m, 0.95f * p.support_m), 1.0e-4f);
+}
+
 // The lesser of two depths, rounded where they meet.
 float lesser(float a, float b)
 {
@@ -50,24 +63,54 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     shape.positions.reserve(count);
     shape.thickness_m.reserve(count);
     shape.deep_m.reserve(count);
+    // As if nothing lay beyond the edges, and steps were level.
+    std::vector<float> fallen(count), top(count);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
-        const float deep = lesser(
-            std::min(drawn_snow_m(depth_m[i]) * p.share * p.uneven, kMostOverWidth * p.support_m), p.most_m);
-        const float width = std::max(std::min(deep, 0.95f * p.support_m), 1.0e-4f);
+        fallen[i] = drawn_snow_m(depth_m[i]) * p.uneven * p.share;
+        const float held = lesser(std::min(fallen[i], kMostOverWidth * p.support_m), p.most_m);
+        top[i] = p.base_m.y + held * rounded(p.edge_m / width_m(p, held));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const SnowCaps::Point& p = caps.points[i];
+        // How far what lies beyond the edge reaches over it.
+        const float beyond = p.beyond != SnowCaps::kNone ? top[p.beyond] - p.base_m.y : -1.0e9f;
+        const float over = std::clamp(beyond, 0.0f, fallen[i]);
+        const float held = lesser(std::min(fallen[i], kMostOverWidth * p.support_m + over), p.most_m + over);
+        // Or how far what the edge sheds closes the step down to it.
+        const float step = std::max(-beyond, 0.0f);
+        float bank = 0.0f;
+        if (p.beyond != SnowCaps::kNone && p.above != SnowCaps::kNone) {
+            const float shed = fallen[p.above];
+            bank = (1.0f - shared::smooth_edge(0.6f * kBank * shed, kBank * shed, step)) *
+                   shared::smooth_edge(0.01f, 0.03f, std::min(shed, fallen[p.beyond]));
+        }
+        const bool rim = p.edge_m < kAtRim_m;
+        const float deep = rim && bank > 0.0f ? std::max(held, bank * fallen[p.above]) : held;
+        const float width = width_m(p, held);
         const float s = p.edge_m / width;
-        const float slot = std::clamp(2.0f * deep / (kClosed * p.gap_m) - 1.0f, 0.0f, 1.0f);
-        const float round = rounded(s);
-        const float thickness = deep * (round + slot * (1.0f - round));
+        const float slot = std::clamp(2.0f * held / (kClosed * p.gap_m) - 1.0f, 0.0f, 1.0f);
+        const float kept = std::min(over / std::max(held, 1.0e-6f), 1.0f);
+        const float round = rounded(s), round_slot = rounded(p.slot_m / width);
+        // The edge of a low step is lost where the snow below it reaches half up its own.
+        const float lower = p.below != SnowCaps::kNone ? std::max(top[p.below] - p.base_m.y, 0.0f) : 0.0f;
+        const float lost = shared::smooth_edge(0.0f, 0.5f, lower / std::max(held, 1.0e-6f));
+        const float round_low = rounded(p.low_m / width);
+        const float thickness = held * (round_low + lost * (1.0f - round_low)) * (round + kept * (1.0f - round)) * (round_slot + slot * (1.0f - round_slot));
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
         at.y += thickness - sunk + p.fill_m * shared::smooth_edge(0.01f, 0.06f, thickness);
-        const float bridged = p.gap_m < 1.0f ? slot : std::min(thickness / 0.03f, 1.0f);
+        const float bridged = p.slot_m < 1.0e-3f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;
-        if (s < 1.0f && deep > 0.0f) {
+        if (rim && bank > 0.0f) {
+            at.y -= bank * (step + kIntoSnow_m);
+            const float out = bank * (step + kIntoSnow_m) / kBankSlope;
+            at.x += p.out.x * out;
+            at.z += p.out.y * out;
+        } else if (s < 1.0f && held > 0.0f) {
             const float bulge = 3.5f * std::sqrt(s) * (1.0f - s) * (1.0f - s);
-            const float out = std::min(kOverhang * deep, kMostOverhang_m) * bulge * (1.0f - slot);
+            const float out = std::min(kOverhang * held, kMostOverhang_m) * bulge * (1.0f - std::max(kept, bank));
             at.x += p.out.x * out;
             at.z += p.out.y * out;
         }

@@ -494,6 +494,87 @@ TEST(SnowShape, RoundThingsCarryAllOfItOnTheirCrown)
     EXPECT_LT(side, 0.5f * crown + 0.012f);
 }
 
+// A kerb of 12 cm under 14 cm of snow: what its edge sheds reaches down into the snow of the road. Under 3 cm its face is bare.
+TEST(SnowShape, DeepSnowClosesAStep)
+{
+    const SnowCaps caps = caps_of(yard());
+    const auto rim_over_road = [&](float depth) {
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), depth));
+        float highest = -1.0f;
+        for (std::size_t i = 0; i < caps.points.size(); ++i) {
+            const auto& p = caps.points[i];
+            if (std::abs(p.base_m.y - 0.12f) > 1e-4f || std::abs(p.base_m.x + 1.0f) > 1e-4f || std::abs(p.base_m.z - 2.2f) > 0.5f) continue;
+            highest = std::max(highest, shape.positions[i].y - 0.75f * depth);
+        }
+        return highest;
+    };
+    EXPECT_LT(rim_over_road(0.14f), 0.0f);
+    EXPECT_GT(rim_over_road(0.14f), -0.06f);
+    EXPECT_GT(rim_over_road(0.03f), 0.08f);
+}
+
+// A board that lies over a wall, 6 cm from its face: snow is round at its end, no slab stands up there. On wide ground the
+// snow beside the same board buries its edge.
+TEST(SnowShape, ABoardIsRoundWhereNoSnowReachesUpToIt)
+{
+    const auto end_of_board = [](float wall) {
+        Scene scene = empty_scene();
+        add_box(scene, {-wall, -1.0f, -wall}, {0.0f, 0.0f, wall}, false);
+        add_box(scene, {-0.9f, 0.0f, -0.1f}, {-0.06f, 0.04f, 0.1f}, false);
+        if (wall > 1.0f) add_box(scene, {0.0f, -1.0f, -wall}, {wall, 0.0f, wall}, false);
+        const SnowCaps caps = caps_of(scene);
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.14f));
+        float thickest = -1.0f;
+        for (std::size_t i = 0; i < caps.points.size(); ++i) {
+            const auto& p = caps.points[i];
+            if (std::abs(p.base_m.y - 0.04f) < 1e-4f && std::abs(p.base_m.x + 0.06f) < 1e-4f) thickest = std::max(thickest, shape.thickness_m[i]);
+        }
+        EXPECT_GE(thickest, 0.0f) << "none is there";
+        return thickest;
+    };
+    EXPECT_LT(end_of_board(0.2f), 0.05f);
+    EXPECT_GT(end_of_board(2.0f), 0.08f);
+}
+
+// Two stones of a kerb with a slot between them: at the corner snow is round as along the edge.
+TEST(SnowShape, IsRoundAtTheCornersOfASlot)
+{
+    Scene scene = empty_scene();
+    add_box(scene, {-1.0f, 0.0f, -0.5f}, {-0.04f, 1.0f, 0.5f}, false);
+    add_box(scene, {0.04f, 0.0f, -0.5f}, {1.0f, 1.0f, 0.5f}, false);
+    const SnowCaps caps = caps_of(scene);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.2f));
+    int corners = 0, beside = 0;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const auto& p = caps.points[i];
+        if (p.base_m.y != 1.0f || std::abs(p.base_m.x) > 0.08f) continue;
+        if (p.edge_m < 0.005f) {
+            EXPECT_LT(shape.thickness_m[i], 0.08f) << p.base_m.x << " " << p.base_m.z;
+            ++corners;
+        } else if (p.edge_m > 0.3f) {
+            EXPECT_GT(shape.thickness_m[i], 0.14f) << "the slot is closed";
+            ++beside;
+        }
+    }
+    EXPECT_GT(corners, 3);
+    EXPECT_GT(beside, 3);
+}
+
+// A channel with sides of 25 degrees below a grating that is level with its rims: what is so low hides it from no snow.
+TEST(SnowCaps, LieInAGutterBelowItsGrating)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-2, 0, 2}, {1.85f, 0, 0}, {0, 0, -4});
+    add_face(scene, {-0.15f, 0, 2}, {0.15f, -0.06f, 0}, {0, 0, -4});
+    add_face(scene, {0, -0.06f, 2}, {0.15f, 0.06f, 0}, {0, 0, -4});
+    add_face(scene, {0.15f, 0, 2}, {1.85f, 0, 0}, {0, 0, -4});
+    for (int i = -4; i <= 4; ++i) {
+        const float z = 0.05f * static_cast<float>(i);
+        add_box(scene, {-0.15f, -0.024f, z - 0.02f}, {0.15f, -0.002f, z + 0.02f}, false);
+    }
+    EXPECT_GT(point_at(caps_of(scene), {0.0f, -0.06f, 0.0f}).share, 0.6f);
+}
+
 TEST(SnowShape, WithoutSnowCapsAreBelowTheGround)
 {
     const SnowCaps caps = caps_of(yard());

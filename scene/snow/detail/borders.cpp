@@ -16,14 +16,29 @@ constexpr float kCell_m = EdgeGrid::kReach_m;
 constexpr float kStep_m = 0.05f;  // what is no lower goes on, in a street; ..
 constexpr float kStepOfSize = 0.02f;  // .. of a small model, of its size: its steps are its shape
 
+constexpr float kLowStep = 0.25f;  // of that step: lower ones are joints
+
 constexpr float kWidestGap_m = 0.14f;
+constexpr float kOver_m = 0.12f;    // rays start so high
+
+float step_m(const Tracer& tracer)
+{
+    const vec3 size = tracer.triangles().high() - tracer.triangles().low();
+    return std::min(kStep_m, kStepOfSize * std::max(size.x, std::max(size.y, size.z)));
+}
 
 // Ground at a place, or a step up.
 bool ground_at(const Tracer& tracer, const vec3& at)
 {
-    const vec3 size = tracer.triangles().high() - tracer.triangles().low();
-    const float step_m = std::min(kStep_m, kStepOfSize * std::max(size.x, std::max(size.y, size.z)));
-    return tracer.blocked({at + vec3(0.0f, 0.12f, 0.0f), vec3(0.0f, -1.0f, 0.0f), 0.12f + step_m});
+    return tracer.blocked({at + vec3(0.0f, kOver_m, 0.0f), vec3(0.0f, -1.0f, 0.0f), kOver_m + step_m(tracer)});
+}
+
+// How far below a border the ground beyond it lies; kDeepDrop_m where there is none.
+float drop_beyond_m(const Tracer& tracer, const vec3& at, const vec2& out)
+{
+    const vec3 from = at + vec3(out.x, 0.0f, out.y) * kBeyond_m + vec3(0.0f, kOver_m, 0.0f);
+    const RayHit hit = tracer.nearest({from, vec3(0.0f, -1.0f, 0.0f), kOver_m + kDeepDrop_m});
+    return hit.hit() ? hit.distance_m - kOver_m : kDeepDrop_m;
 }
 
 std::uint64_t cell_of(int x, int z)
@@ -44,7 +59,7 @@ Beyond beyond(const Tracer& tracer, const vec3& at, const vec2& out)
     const vec3 way(out.x, 0.0f, out.y);
     // A wall that rises just behind the edge.
     if (tracer.blocked({at + vec3(0.0f, 0.06f, 0.0f) - way * 0.03f, way, 0.1f})) return Beyond::Wall;
-    return ground_at(tracer, at + way * 0.04f) ? Beyond::Ground : Beyond::Nothing;
+    return ground_at(tracer, at + way * kBeyond_m) ? Beyond::Ground : Beyond::Nothing;
 }
 
 float gap_beyond_m(const Tracer& tracer, const vec3& at, const vec2& out)
@@ -92,10 +107,16 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
                 return from + along * (t / static_cast<float>(pieces));
             };
             const auto f = static_cast<float>(k);
-            const bool open = beyond(tracer, at(f + 0.5f), out) == Beyond::Nothing;
-            auto& list = open ? borders.open : borders.closed;
-            list.push_back({at(f), at(f + 1.0f), out,
-                            open ? gap_beyond_m(tracer, at(f + 0.5f), out) : 1.0e9f});
+            const vec3 middle = at(f + 0.5f);
+            Border piece{at(f), at(f + 1.0f), out};
+            const Beyond there = beyond(tracer, middle, out);
+            if (there != Beyond::Wall) piece.drop_m = drop_beyond_m(tracer, middle, out);
+            if (there == Beyond::Nothing) piece.gap_m = gap_beyond_m(tracer, middle, out);
+            auto& list = there != Beyond::Nothing ? borders.closed
+                         : piece.gap_m < 1.0f     ? borders.slots
+                                                  : borders.open;
+            list.push_back(piece);
+            if (there == Beyond::Ground && piece.drop_m > kLowStep * step_m(tracer)) borders.low.push_back(piece);
         }
     }
     return borders;
@@ -128,7 +149,7 @@ NearEdge EdgeGrid::nearest(const vec3& place, const vec3& normal) const
         const float distance = glm::length(way);
         // Not of a kerb above or below.
         if (std::abs(glm::dot(way, normal)) > 0.02f + 0.12f * distance) continue;
-        if (distance < best.distance_m) best = {distance, e.out, e.gap_m};
+        if (distance < best.distance_m) best = {distance, &e};
     }
     if (best.distance_m > kReach_m) return {};
     return best;

@@ -7,9 +7,14 @@
 #include <vector>
 
 #include "scene/patches/tracer.h"
+#include "scene/snow/snow_caps.h"
 #include "scene/subdivide/subdivide.h"
 
 namespace petrichor::scene::detail {
+
+/// Of an edge, a drop that no snow on what lies beyond reaches up to.
+inline constexpr float kDeepDrop_m = 0.6f;
+inline constexpr float kBeyond_m = 0.04f;  ///< so far out of a border is what lies beyond
 
 /// A piece of a border.
 struct Border {
@@ -17,6 +22,9 @@ struct Border {
     glm::vec3 to{0.0f};
     glm::vec2 out{0.0f};  ///< unit, world x and z
     float gap_m = 1.0e9f;  ///< open: until ground goes on behind a slot or joint; 1e9: it does not
+    float drop_m = kDeepDrop_m;  ///< open: how far below it what lies beyond is
+    std::uint32_t beyond = SnowCaps::kNone;  ///< open: the point of the caps nearest to there ..
+    std::uint32_t above = SnowCaps::kNone;   ///< .. and that on top, a hand in from the edge
 };
 
 /// What lies beyond a border.
@@ -25,17 +33,16 @@ Beyond beyond(const Tracer& tracer, const glm::vec3& at, const glm::vec2& out);
 /// How wide a slot is that begins at a place, until ground goes on; 1e9 when it is none.
 float gap_beyond_m(const Tracer& tracer, const glm::vec3& at, const glm::vec2& out);
 
-/// All borders of a mesh, in pieces of at most 0.25 m: open where the ground falls away beyond them, closed
-/// where a wall rises or ground goes on after a joint.
+/// All borders of a mesh, in pieces of at most 0.25 m: open where the ground falls away beyond them, slots where it
+/// goes on soon after, closed where a wall rises or ground goes on after a joint; low of the closed, where it goes on lower.
 struct Borders {
-    std::vector<Border> open, closed;
+    std::vector<Border> open, slots, closed, low;
 };
 Borders borders_of(const CutMesh& mesh, const Tracer& tracer);
 
 struct NearEdge {
     float distance_m = 1.0e9f;
-    glm::vec2 out{0.0f};
-    float gap_m = 1.0e9f;
+    const Border* border = nullptr;  ///< nothing: none is near
 };
 
 /// Finds the nearest border that lies on the same surface.
@@ -45,6 +52,7 @@ public:
     explicit EdgeGrid(std::vector<Border> edges);
     /// normal: of the surface at the place, unit.
     NearEdge nearest(const glm::vec3& place, const glm::vec3& normal) const;
+    std::vector<Border>& edges() { return edges_; }
 
 private:
     std::vector<Border> edges_;

@@ -28,6 +28,9 @@ constexpr float kDips_m = 0.03f;      // its snow goes under that of the ground 
 constexpr float kDipWidth_m = 0.14f;  // .. from there on
 constexpr float kSticks_m = 0.012f;   // what holds on any slope
 constexpr int kSpread = 12;           // edges that the rim of a lid is told over
+constexpr float kAtBorder_m = 1.0e-3f;
+constexpr float kPoor_m = 0.4f;       // of the point on top of an edge: its bevel holds little
+constexpr float kFound_m = 0.5f;      // within this a point tells what lies beyond an edge; up and down a quarter of it
 
 // How far points are from the rim of what lies on ground that goes on below it, as a manhole's lid: 0 at its rim, far for
 // all others. There are two sheets of snow, which would meet in a hair line.
@@ -37,7 +40,7 @@ std::vector<float> rims_on_ground(const SnowCaps& caps, const std::vector<bool>&
     for (std::size_t i = 0; i < caps.points.size(); ++i) {
         const SnowCaps::Point& point = caps.points[i];
         const float length = glm::length(point.bridge_m);
-        if (!(length > 0.0f) || point.gap_m < 1.0f || joined[i]) continue;
+        if (!(length > 0.0f) || point.slot_m < kAtBorder_m || point.edge_m < kAtBorder_m || joined[i]) continue;
         const vec2 in = point.bridge_m * (-0.02f / length);
         const vec3 below = point.base_m + vec3(in.x, -0.002f, in.y);
         if (tracer.blocked({below, vec3(0.0f, -1.0f, 0.0f), kLaid_m})) away[i] = 0.0f;
@@ -45,7 +48,46 @@ std::vector<float> rims_on_ground(const SnowCaps& caps, const std::vector<bool>&
     return away;
 }
 
+using Next = std::pair<float, std::uint32_t>;
+using Queue = std::priority_queue<Next, std::vector<Next>, std::greater<>>;
+
 }  // namespace
+
+void find_beyond(std::vector<Border>& edges, const SnowCaps& caps)
+{
+    const auto cell_of = [](float x, float z) {
+        return std::pair(static_cast<int>(std::floor(x / kFound_m)), static_cast<int>(std::floor(z / kFound_m)));
+    };
+    std::map<std::pair<int, int>, std::vector<std::uint32_t>> cells;
+    for (std::uint32_t i = 0; i < caps.points.size(); ++i)
+        cells[cell_of(caps.points[i].base_m.x, caps.points[i].base_m.z)].push_back(i);
+    // poor: how many metres off counts as much as a point that holds no snow.
+    const auto nearest_to = [&](const vec3& place, float poor) {
+        float best = kFound_m;
+        std::uint32_t found = SnowCaps::kNone;
+        const auto middle = cell_of(place.x, place.z);
+        for (int k = 0; k < 9; ++k) {
+            const auto cell = cells.find({middle.first + k % 3 - 1, middle.second + k / 3 - 1});
+            if (cell == cells.end()) continue;
+            for (const std::uint32_t i : cell->second) {
+                const vec3 way = caps.points[i].base_m - place;
+                // On what lies there, not on a kerb above or below it.
+                const float apart = glm::length(vec2(way.x, way.z)) + 4.0f * std::abs(way.y) + poor * (1.0f - caps.points[i].share);
+                if (apart >= best) continue;
+                best = apart;
+                found = i;
+            }
+        }
+        return found;
+    };
+    for (Border& edge : edges) {
+        if (!(edge.drop_m < kDeepDrop_m)) continue;
+        const vec3 middle = 0.5f * (edge.from + edge.to);
+        const vec3 out(kBeyond_m * edge.out.x, 0.0f, kBeyond_m * edge.out.y);
+        edge.above = nearest_to(middle - 2.0f * out, kPoor_m);
+        edge.beyond = nearest_to(middle + out - vec3(0.0f, edge.drop_m, 0.0f), 0.0f);
+    }
+}
 
 std::vector<Joint> joints_of(const SnowCaps& caps)
 {
@@ -57,7 +99,7 @@ std::vector<Joint> joints_of(const SnowCaps& caps)
     for (std::uint32_t i = 0; i < count; ++i) {
         const SnowCaps::Point& point = caps.points[i];
         // At a border that is closed.
-        if (glm::length(point.bridge_m) > 0.0f && point.gap_m > 1.0f) cells[cell_of(point.base_m)].push_back(i);
+        if (glm::length(point.bridge_m) > 0.0f && point.slot_m > kAtBorder_m && point.edge_m > kAtBorder_m) cells[cell_of(point.base_m)].push_back(i);
     }
     std::vector<Joint> joints;
     for (const auto& [cell, points] : cells) {
@@ -161,11 +203,10 @@ void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>
     for (const Joint& joint : joints) beside[joint.here].emplace_back(joint.beyond, kRepose * joint.apart_m);
     // How high the snow may reach: from the lowest edge upwards (Dijkstra 1959), ties by number.
     std::vector<float> top(count, 1.0e30f), upright(count, 0.0f);
-    using Next = std::pair<float, std::uint32_t>;
-    std::priority_queue<Next, std::vector<Next>, std::greater<>> queue;
+    Queue queue;
     for (std::uint32_t i = 0; i < count; ++i) {
         const SnowCaps::Point& point = caps.points[i];
-        if (point.edge_m > 1.0e-3f || point.gap_m < 1.0f) continue;
+        if (point.edge_m > kAtBorder_m) continue;
         const float level = shared::smooth_edge(0.77f, 0.95f, normals[i].y);
         top[i] = point.base_m.y;
         upright[i] = kSticks_m + level * kShoulder * point.support_m;

@@ -6,10 +6,14 @@
 #include <vector>
 
 #include "scene/patches/tracer.h"
+#include "scene/snow/detail/borders.h"
 #include "scene/snow/snow_caps.h"
 #include "scene/subdivide/subdivide.h"
 
 namespace petrichor::scene::detail {
+
+/// Of edges with ground beyond: the points there and above.
+void find_beyond(std::vector<Border>& edges, const SnowCaps& caps);
 
 /// Points of neighbouring surfaces that snow lies over as one, though no vertex is shared: a kerb and the bed behind it,
 /// a manhole's lid and the setts around it.
