@@ -8,6 +8,7 @@
 #include "formulas/color/tone_map.h"
 #include "formulas/color/white_balance.h"
 #include "formulas/geometry/footprint.h"
+#include "formulas/geometry/shapes.h"
 #include "formulas/light/area.h"
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
@@ -49,7 +50,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 58;
+SHARED_CONST int kProbeKinds = 60;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -464,7 +465,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 d = cube_direction(int(min(a.x * 6.0f, 5.0f)), st);
         return vec4(d.x, d.y, d.z, cube_texel_weight(st));
     }
-    if (kind == 57) {
+    if (kind == 59) {
         OcclusionPoint p;
         p.depth = 0.1f + a.z;
         p.open = floor(255.0f * a.w) / 255.0f;
@@ -495,6 +496,27 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const int row = int(min(a.z * float(kAgainHeights), float(kAgainHeights - 1)));
         return scattered_again(70000.0f * a.x * a.x, 1.4f * a.y - 0.4f) +
                vec4(again_height(row) / kAgainTop, again_sun_up(row), 0.0f, 0.0f);
+    }
+    if (kind == 57) {
+        const vec3 p = 3.0f * vec3(a.x, a.y, a.z) - vec3(1.5f);
+        // Farther than where the orbits of neighbours part.
+        const vec3 q = probe_direction(b.x, b.y) * (1.45f + b.z);
+        const MarchedShape ring = MarchedShape(SHAPE_TORUS, 0, 0.0f, vec3(1.0f + a.w, a.w, 1.0f + a.w));
+        return vec4(sierpinski_distance(p, 4.0f * c.x), menger_distance(p, 3.0f * c.y),
+                    mandelbulb_distance(q, 3.0f + 9.0f * b.w, 3), shape_distance(ring, p, 0.0f));
+    }
+    if (kind == 58) {
+        // Rays from around to a point within: where they meet a ball, a box of this size; and its normal.
+        const vec3 from = 3.0f * probe_direction(a.x, a.y);
+        const vec3 along = normalize(1.1f * probe_direction(b.x, b.y) * b.z - from);
+        const vec3 size = vec3(0.3f) + 0.7f * vec3(c.x, c.y, c.z);
+        const vec2 ends = through_box(from, along, size);
+        const MarchedShape ball = MarchedShape(SHAPE_SPHERE, 0, 0.0f, vec3(1.0f));
+        // Whether a ray that nearly touches it meets it, the last bit decides.
+        const float aside = length(cross(from, along));
+        const float met = abs(aside - 1.0f) > 0.05f ? shape_met(ball, from, along, 0.0f, 9.0f, vec2(0.001f, 0.001f)) : 0.0f;
+        const vec3 n = shape_normal(ball, from, 0.5f);
+        return vec4(min(abs(ends.x), 9.0f), min(abs(ends.y), 9.0f), met, n.x + 2.0f * n.y);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

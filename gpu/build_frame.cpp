@@ -15,6 +15,7 @@
 #include "gpu/passes/patch_light/patch_points.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
+#include "gpu/passes/shapes/shapes.h"
 #include "gpu/passes/sky/seen_sky.h"
 #include "gpu/upload/draw.h"
 #include "gpu/passes/visibility/visibility.h"
@@ -490,6 +491,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
                            c.world_to_clip, c.camera_m, weather, *r.resolve->draws, seen, solid);
+            add_shapes(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, c);
             if (listed) {
                 add_ask(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
                 if (variant.split)

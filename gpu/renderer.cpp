@@ -373,13 +373,15 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
     if (impl_->own_lighting)
         impl_->pipelines.add_shader(kOwnLightingShader, std::move(own_lighting));
     auto own_surfaces = impl_->scene->own_surfaces().compile();
+    const bool shapes = !impl_->scene->shapes().empty();
+    if ((!own_surfaces.empty() || shapes) &&
+        chosen_surface_path(SurfacePath::Auto, impl_->device, *impl_->scene, 1, 1, false) != SurfacePath::Visibility) {
+        throw Error("surface: this device cannot number triangles or fetch their corners, which " +
+                        std::string(shapes ? "marched shapes" : "surfaces of one's own") + " need",
+                    "Leave `surface` out of the materials and [shapes] out of the scenario, or choose another "
+                    "--device.");
+    }
     if (!own_surfaces.empty()) {
-        if (chosen_surface_path(SurfacePath::Auto, impl_->device, *impl_->scene, 1, 1, false) !=
-            SurfacePath::Visibility) {
-            throw Error("surface: this device cannot number triangles or fetch their corners, which "
-                        "surfaces of one's own need",
-                        "Leave `surface` out of the materials, or choose another --device.");
-        }
         impl_->pipelines.add_shader(kOwnResolveShader, std::move(own_surfaces));
     }
 }
@@ -423,7 +425,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         device, frame.animation_s,
         {frame.weather.wind_m_s, frame.falling.air_m, frame.settings.time_s});
     const bool switched = scene->choose_levels(frame.camera, frame.settings.lod_scale);
-    if (scene->set_materials(frame.materials) || moved || switched) {
+    const bool reshaped = scene->set_shapes(frame.shapes);
+    if (scene->set_materials(frame.materials) || moved || switched || reshaped) {
         depth_maps.forget();
         lamp_shadows.forget();
     }

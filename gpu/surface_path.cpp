@@ -6,8 +6,8 @@ SurfacePath chosen_surface_path(SurfacePath asked, const Device& device, const G
                                 int width, int height, bool adaptive)
 {
     if (!device.primitive_ids() || !scene.as_texels()) return SurfacePath::Fragment;
-    // Users' own surfaces and textures of layers are the resolve's alone.
-    if (scene.own_surfaces().any() || scene.layer_shares()) return SurfacePath::Visibility;
+    // Users' own surfaces, textures of layers and marched shapes are the resolve's alone.
+    if (scene.own_surfaces().any() || scene.layer_shares() || !scene.shapes().empty()) return SurfacePath::Visibility;
     if (asked != SurfacePath::Auto) return asked;
     if (device.info().kind != "cpu") return SurfacePath::Fragment;
     // Later samples leave out the pixels that are known only there: FlightHelmet 0.82, truck_town 0.62 of

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/shapes.h"
+
 namespace petrichor::scene {
 
 Bounds scene_bounds(const Scene& scene)
@@ -18,6 +20,11 @@ Bounds scene_bounds(const Scene& scene)
                 bounds.high = glm::max(bounds.high, world);
             }
         }
+    }
+    for (const MarchedShape& shape : scene.shapes) {
+        const Bounds reach = shape.reach.value_or(shape_bounds(shape, shape.rest));
+        bounds.low = glm::min(bounds.low, reach.low);
+        bounds.high = glm::max(bounds.high, reach.high);
     }
     if (scene.reach) {
         bounds.low = glm::min(bounds.low, scene.reach->low);

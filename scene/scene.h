@@ -380,6 +380,31 @@ struct ProjectedDecal {
     glm::mat4 in_node{1.0f};           ///< from the cube to the node
 };
 
+struct Bounds {
+    glm::vec3 low{0.0f};
+    glm::vec3 high{0.0f};
+};
+
+/// What of a marched shape may be other in another frame.
+struct ShapeMoment {
+    glm::mat4 to_world{1.0f};  ///< from its own space: a turn, one scale and a shift
+    float power = 8.0f;        ///< of a Mandelbulb, 2 to 12
+
+    bool operator==(const ShapeMoment&) const = default;
+};
+
+/// A thing without triangles, to whose surface rays are marched (scene/shapes.h). Seen, shadowed and under
+/// the weather as all else, but no part of patches, hollows and snow with a body.
+struct MarchedShape {
+    std::string name;
+    int kind = 0;                ///< SHAPE_... of formulas/geometry/shapes.h
+    std::uint32_t material = 0;  ///< index into Scene::materials; opaque
+    int iterations = 0;          ///< of what is made in steps
+    glm::vec3 half{1.0f};        ///< of a box; of a torus: half as wide as it is, radius of its tube, the first again
+    ShapeMoment rest;
+    std::optional<Bounds> reach;  ///< of all its moments; none: it rests
+};
+
 enum class LightKind { Directional, Point, Spot, Rectangle };
 
 /// KHR_lights_punctual in world space, and glowing rectangles.
@@ -442,11 +467,6 @@ struct EncodedImage {
     bool nearest = false;  ///< magnification filter
 };
 
-struct Bounds {
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
-};
-
 /// One texture = one image and one sampler. The pixels are decoded outside of this room.
 struct Scene {
     std::string name;
@@ -455,6 +475,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<ProjectedDecal> decals;
+    std::vector<MarchedShape> shapes;
     std::vector<Light> lights;
     std::vector<LightProfile> light_profiles;
     std::vector<Camera> cameras;
@@ -463,7 +484,7 @@ struct Scene {
     std::optional<Bounds> reach;        ///< of all that moves, over time
 };
 
-/// World-space bounds of all instances but backdrops; of what moves, all that it passes through.
+/// World-space bounds of all instances but backdrops, and of shapes; of what moves, all that it passes through.
 Bounds scene_bounds(const Scene& scene);
 
 }  // namespace petrichor::scene

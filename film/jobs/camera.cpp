@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/words.h"
+#include "scene/shapes.h"
 
 namespace petrichor::film {
 namespace {
@@ -69,7 +70,14 @@ scene::Bounds content_bounds(const scene::Scene& scene)
     }
     const bool few_far_points =
         glm::length(middle.high - middle.low) < 0.4f * glm::length(all.high - all.low);
-    return few_far_points ? middle : all;
+    if (!few_far_points) return all;
+    // Who puts a shape there wants to see it.
+    for (const scene::MarchedShape& shape : scene.shapes) {
+        const scene::Bounds reach = shape.reach.value_or(scene::shape_bounds(shape, shape.rest));
+        middle.low = glm::min(middle.low, reach.low);
+        middle.high = glm::max(middle.high, reach.high);
+    }
+    return middle;
 }
 
 scene::Camera camera_towards(const glm::dvec3& position_m, const glm::dvec3& look_at_m,

@@ -22,6 +22,7 @@
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/displacement.h"
 #include "film/scenes/ground_plane.h"
+#include "film/scenes/shapes.h"
 #include "film/scenes/snow_tracks.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
@@ -117,6 +118,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
         throw Error("scene: " + loaded.scene.name + " shows no triangles",
                     "Export meshes with triangles, placed in the default scene.");
     }
+    const std::string shapes = add_shapes(scenario.shapes, scenario.materials, loaded.scene);
     sequence.bounds = content_bounds(loaded.scene);
     const bool ground = wants_ground(scenario, loaded.scene, sequence.bounds);
     if (ground) add_ground(loaded.scene, sequence.bounds);
@@ -134,6 +136,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     const glm::vec3 size = sequence.bounds.high - sequence.bounds.low;
     set_beads(sequence.scene, std::max({size.x, size.y, size.z}));
     check_decals(sequence.scene);
+    check_shapes(sequence.scene);
     const AppliedLamps lamps =
         apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), lamps.unmatched.begin(),
@@ -156,6 +159,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
             content.add(v);
     }
     if (!decals.empty()) content.add(decals);
+    if (!shapes.empty()) content.add(shapes);
     content.add(applied.textures);
     content.add(ground);
     content.add(scenario.scene.variant);

@@ -18,6 +18,7 @@
 #include "film/jobs/sun.h"
 #include "film/scenario/look_keys.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenes/shapes.h"
 
 namespace petrichor::film {
 namespace {
@@ -404,6 +405,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     out.scene_light_scale = narrow(lamps);
     out.emissive_scale = narrow(lamps);
     out.materials = material_changes(scenario.materials, sequence.scene.materials, time_s);
+    out.shapes = shape_moments(scenario.shapes, sequence.scene, time_s);
     out.emissive_lights = here.lights.emissive;
 
     gpu::FrameSettings& settings = out.settings;
@@ -458,6 +460,14 @@ void add_materials(Hasher& hasher, const gpu::Frame& frame)
     }
 }
 
+void add_shapes(Hasher& hasher, const gpu::Frame& frame)
+{
+    for (const scene::ShapeMoment& moment : frame.shapes) {
+        hasher.add_numbers(std::span<const float>(&moment.to_world[0][0], 16));
+        hasher.add(moment.power);
+    }
+}
+
 void add_frame(Hasher& hasher, const gpu::Frame& frame)
 {
     add_camera(hasher, frame.camera);
@@ -474,6 +484,7 @@ void add_frame(Hasher& hasher, const gpu::Frame& frame)
     hasher.add(frame.animation_s);
     add_lens(hasher, frame);
     add_materials(hasher, frame);
+    add_shapes(hasher, frame);
     add_settings(hasher, frame.settings);
 }
 
@@ -520,6 +531,7 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
             add_materials(hasher, frame);
         });
     }
+    if (!frame.shapes.empty()) parts["shapes"] = part([&](Hasher& hasher) { add_shapes(hasher, frame); });
     if (sequence.scene.rig)
         parts["animation"] = part([&](Hasher& hasher) { hasher.add(frame.animation_s); });
     parts["camera"] = part([&](Hasher& hasher) {

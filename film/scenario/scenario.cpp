@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/words.h"
 #include "film/scenario/decal_keys.h"
+#include "film/scenario/shape_keys.h"
 #include "film/scenario/lamp_keys.h"
 #include "film/scenario/look_keys.h"
 #include "film/scenario/material_keys.h"
@@ -25,7 +26,7 @@ std::vector<std::string> table_names()
     for (const Rule& rule : rules()) {
         if (names.empty() || names.back() != rule.key.table) names.push_back(rule.key.table);
     }
-    for (const char* name : {"look", "materials", "nodes", "decals", "lamps", "variant", "view"}) names.emplace_back(name);
+    for (const char* name : {"look", "materials", "nodes", "decals", "shapes", "lamps", "variant", "view"}) names.emplace_back(name);
     return names;
 }
 
@@ -163,6 +164,8 @@ void read_table(Scenario& scenario, const std::string& table, const toml::node& 
         scenario.nodes = read_node_overrides(*node.as_table(), scenario.name);
     } else if (table == "decals") {
         scenario.decals = read_decals(*node.as_table(), scenario.name);
+    } else if (table == "shapes") {
+        scenario.shapes = read_shapes(*node.as_table(), scenario.name);
     } else if (table == "lamps") {
         scenario.lamps = read_lamp_overrides(*node.as_table(), scenario.name);
     } else if (table == "look") {
@@ -293,6 +296,7 @@ const std::vector<ScenarioKey>& scenario_keys()
         for (ScenarioKey& key : material_keys()) all.push_back(std::move(key));
         for (ScenarioKey& key : node_keys()) all.push_back(std::move(key));
         for (ScenarioKey& key : decal_keys()) all.push_back(std::move(key));
+        for (ScenarioKey& key : shape_keys()) all.push_back(std::move(key));
         for (ScenarioKey& key : lamp_keys()) all.push_back(std::move(key));
         return all;
     }();
@@ -321,6 +325,9 @@ std::string table_meaning(const std::string& table)
          "Values of single things instead of their materials', by the names of their nodes; * stands for "
          "any letters. Later tables win."},
         {"decals", "Boxes that project a material onto what lies in them: posters, road marks, stains."},
+        {"shapes",
+         "Things without triangles, to whose surface rays are marched: fractals and simple bodies, under sun, rain "
+         "and snow as all else."},
         {"lamps", "Lamps of the scene, by their names; * stands for any letters. Later tables win."},
         {"materials",
          "Properties of materials, by their names; * stands for any letters. Later tables win."},

@@ -262,6 +262,22 @@ struct ScenarioDecal {
     std::string node;  ///< that carries it; empty: none
 };
 
+/// A marched shape (scene/shapes.h) that the scenario puts into the scene.
+struct ScenarioShape {
+    std::string name;
+    std::string place;     ///< "file:line", for messages
+    std::vector<std::string> given = {};  ///< names of the keys in the file
+    int kind = -1;                 ///< SHAPE_...; negative: not given
+    std::string material;          ///< by name; of the scene, or described by the scenario
+    int iterations = 0;            ///< 0: as its kind has them
+    std::vector<KeyedNumber> center_m = {};      ///< x, y, z; empty: 0
+    std::vector<KeyedNumber> turn_degrees = {};  ///< about x, y, z, in this order; empty: 0
+    KeyedNumber size_m = {};
+    KeyedNumber power = {};
+    glm::dvec3 sides{1.0};
+    double tube = 0.25;
+};
+
 /// What the lamps whose name matches have instead of their own.
 struct LampOverride {
     std::string glob;
@@ -331,6 +347,7 @@ struct Scenario : Conditions {
     std::vector<MaterialOverride> materials;
     std::vector<NodeOverride> nodes;
     std::vector<ScenarioDecal> decals;
+    std::vector<ScenarioShape> shapes;
     std::vector<LampOverride> lamps;
     std::vector<ScenarioVariant> variants;  ///< empty: the scenario's own conditions
     std::vector<ScenarioView> views;        ///< empty: the scenario's own camera

@@ -21,7 +21,7 @@ using Kind = Question::Kind;
 
 bool by_name(const std::string& table)
 {
-    return table == "materials" || table == "nodes" || table == "decals" || table == "lamps";
+    return table == "materials" || table == "nodes" || table == "decals" || table == "shapes" || table == "lamps";
 }
 
 // Reading a file of one key tells what is asked of its value, whatever comes of it.

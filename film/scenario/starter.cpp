@@ -12,6 +12,7 @@ std::string header_of(const std::string& table)
 {
     if (table == "materials") return "[materials.\"*cobble*\"]";
     if (table == "nodes") return "[nodes.\"car*\"]";
+    if (table == "shapes") return "[shapes.\"sponge\"]";
     if (table == "decals") return "[decals.\"poster\"]";
     return table == "lamps" ? "[lamps.\"*lantern*\"]" : "[" + table + "]";
 }
@@ -66,7 +67,7 @@ std::string starter_scenario(const std::string& name, const std::string& scene_f
         if (first_of_table) {
             table = key.table;
             const bool optional =
-                (table == "materials" || table == "nodes" || table == "decals" || table == "lamps") &&
+                (table == "materials" || table == "nodes" || table == "decals" || table == "shapes" || table == "lamps") &&
                 !all_active;
             text += "\n# " + table_meaning(table) + "\n" + (optional ? "# " : "") +
                     header_of(table) + "\n";

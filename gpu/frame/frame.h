@@ -214,6 +214,7 @@ struct Frame {
     float scene_light_scale = 1.0f;   ///< multiplies point and spot lights of the scene
     float emissive_scale = 1.0f;      ///< multiplies emission of materials
     std::vector<MaterialChange> materials; ///< those that are not named are as loaded
+    std::vector<ShapeMoment> shapes = {};  ///< by number; those behind the list are at rest
     /// Albedo of every patch under this frame's weather; empty: worked out from `weather`.
     std::vector<glm::vec3> patch_albedo = {};
     double animation_s = 0.0;         ///< on the clock of the scene's animations

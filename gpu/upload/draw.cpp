@@ -65,7 +65,7 @@ std::vector<const Draw*> seen_draws(const GpuScene& scene, const glm::mat4& worl
     const Frustum frustum(world_to_clip);
     std::vector<const Draw*> seen;
     for (const Draw& draw : scene.draws()) {
-        if (!draw.shown) continue;
+        if (!draw.shown || draw.shape >= 0) continue;
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
         const bool blended = scene.materials()[draw.material].blended;
         if (which != Draws::All && blended != (which == Draws::LetLightThrough)) continue;
@@ -143,7 +143,7 @@ void sort_draws(std::vector<Draw>& draws, const std::vector<GpuMaterial>& materi
         // What is laid over a scene keeps its order: its vertices are written in it.
         return std::make_tuple(m.blended, m.masked, m.cull == VK_CULL_MODE_NONE, d.material, d.overlay,
                                d.overlay ? 0u : d.first_index, d.overlay ? 0 : d.vertex_offset,
-                               d.mirrored, d.overlay ? 0u : morton(d.centre_m, box));
+                               d.mirrored, d.shape, d.overlay ? 0u : morton(d.centre_m, box));
     };
     std::vector<std::pair<decltype(key(Draw{})), std::size_t>> order;
     order.reserve(draws.size());

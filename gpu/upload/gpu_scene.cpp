@@ -15,6 +15,7 @@
 #include "gpu/upload/emissive_lights.h"
 #include "gpu/upload/material_constants.h"
 #include "gpu/upload/wide_ground.h"
+#include "scene/shapes.h"
 
 namespace petrichor::gpu {
 
@@ -165,6 +166,35 @@ void place_sphere(Draw& draw, const Bounds& box)
                                 glm::abs(linear[2]) * half.z);
 }
 
+namespace {
+
+void place_shape(Draw& draw, const MarchedShape& shape)
+{
+    const glm::vec3 half = half_of(shape, shape.rest);
+    draw.to_world = shape.rest.to_world;
+    place_sphere(draw, {-half, half});
+}
+
+}  // namespace
+
+bool GpuScene::set_shapes(const std::vector<ShapeMoment>& moments)
+{
+    bool changed = false;
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+        const ShapeMoment& now = i < moments.size() ? moments[i] : rest_shapes_[i];
+        if (now == shapes_[i].rest) continue;
+        check_moment(shapes_[i], now);
+        shapes_[i].rest = now;
+        changed = true;
+    }
+    if (!changed) return false;
+    for (Draw& draw : draws_) {
+        if (draw.shape >= 0) place_shape(draw, shapes_[static_cast<std::size_t>(draw.shape)]);
+    }
+    ++poses_;
+    return true;
+}
+
 void GpuScene::upload_geometry(const Device& device, const Scene& scene, const Overlay& overlay)
 {
     struct Range {
@@ -279,6 +309,18 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
         place_sphere(draw, part.box);
         draws_.push_back(draw);
     }
+    for (const MarchedShape& shape : scene.shapes) {
+        check_shape(shape, scene);
+        Draw draw;
+        draw.material = shape.material;
+        draw.instance_id = static_cast<std::uint32_t>(scene.instances.size() + shapes_.size());
+        draw.shape = static_cast<std::int32_t>(shapes_.size());
+        place_shape(draw, shape);
+        draws_.push_back(draw);
+        materials_[shape.material].on_shapes = true;
+        shapes_.push_back(shape);
+        rest_shapes_.push_back(shape.rest);
+    }
     vertices.insert(vertices.end(), overlay.vertices.begin(), overlay.vertices.end());
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
     sort_draws(draws_, materials_);
@@ -335,7 +377,9 @@ void GpuScene::upload_looks(const Device& device, const Scene& scene)
         draw.look = row_of(scene.instances[draw.instance_id].look);
         materials_[draw.material].looks = materials_[draw.material].looks || draw.look != 0;
     };
-    for (Draw& draw : draws_) give(draw);
+    for (Draw& draw : draws_) {
+        if (draw.shape < 0) give(draw);
+    }
     for (Decal& decal : decals_) {
         if (!decal.box) give(decal.draw);
     }

@@ -44,6 +44,7 @@ struct Draw {
     std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
     std::int32_t waving = -1;  ///< likewise of how wind bends it
     bool overlay = false;
+    std::int32_t shape = -1;  ///< number in the scene's shapes; negative: triangles
 };
 
 /// What is laid over the surfaces: triangles, or a box that projects.
@@ -87,6 +88,7 @@ struct GpuMaterial {
     bool casts_shadows = true;
     bool decal_weather = false;        ///< as a decal it brings its own
     bool looks = false;                ///< some instance has other values than it
+    bool on_shapes = false;            ///< some marched shape shows it
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
@@ -129,6 +131,10 @@ public:
     /// Shows of every thing the level of detail that this camera wants. `scale` makes things count as
     /// larger. True when what casts shadows has changed.
     bool choose_levels(const Camera& camera, float scale);
+    /// Brings marched shapes to these moments; those behind the list, to rest. True when any has changed. Throws
+    /// Error for a moment that cannot be.
+    bool set_shapes(const std::vector<ShapeMoment>& moments);
+    const std::vector<MarchedShape>& shapes() const { return shapes_; }  ///< `rest`: of the frame
     /// Something may be elsewhere at another moment.
     bool moves() const { return rig_ != nullptr || !waving_.empty(); }
     /// Grows whenever something may have moved.
@@ -191,6 +197,8 @@ private:
     std::map<int, SamplerHandle> samplers_;
     std::vector<Draw> draws_;
     std::vector<Decal> decals_;
+    std::vector<MarchedShape> shapes_;       // as they are in the frame
+    std::vector<ShapeMoment> rest_shapes_;
     std::shared_ptr<const scene::Rig> rig_;  // null: nothing moves
     std::vector<MovingDraw> moving_;
     std::vector<WavingDraw> waving_;

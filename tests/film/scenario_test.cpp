@@ -228,7 +228,7 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
         EXPECT_TRUE(seen.insert(key.table + "." + key.name).second)
             << key.name << " is there twice";
         const bool by_name = key.table == "materials" || key.table == "lamps" || key.table == "decals" ||
-                             key.table == "nodes";
+                             key.table == "nodes" || key.table == "shapes";
         const std::string table = by_name ? key.table + ".\"*\"" : key.table;
         const std::string head =
             "[" + table + "]\n" + (key.name == "cookie_size_m" ? "cookie = \"leaves.png\"\n" : "") +
@@ -242,7 +242,7 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
             text += "keys = [{ time_s = 0, temperature_c = 1, rainfall = 0 }]\n";
         EXPECT_NO_THROW(parse_scenario(text, "s.toml")) << text;
         if (key.keyed) {
-            const std::string value = key.example[0] == '[' ? "1.0" : key.example;
+            const std::string value = key.example.starts_with("[[") ? "1.0" : key.example;
             EXPECT_NO_THROW(parse_scenario(head + key.name + " = [[0, " + value + "], [2.5, " + value + "]]\n",
                                            "s.toml"))
                 << key.name;

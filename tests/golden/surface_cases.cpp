@@ -1,6 +1,7 @@
 // The dry surface: maps, coordinates, factors, transparency.
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "formulas/geometry/shapes.h"
 #include "tests/golden/stage.h"
 
 namespace petrichor::golden {
@@ -325,6 +326,29 @@ Shot aovs()
     return shot;
 }
 
+Shot marched_shapes()
+{
+    Shot shot = plain_day(look({0.6f, 1.9f, 5.2f}, {0, 0.75f, 0}, 0.62f));
+    shot.add(ground(8.0f, shot.add(plain_material(glm::vec3(0.35f), 0.9f))));
+    const auto put = [&](int kind, int iterations, const glm::vec3& at, float scale, float turn, const glm::vec3& color) {
+        scene::MarchedShape shape;
+        shape.kind = kind;
+        shape.iterations = iterations;
+        shape.material = shot.add(plain_material(color, 0.5f));
+        shape.rest.to_world = glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), at), turn, glm::vec3(0, 1, 0)),
+                                         glm::vec3(scale));
+        if (kind == SHAPE_TORUS) shape.half = {1.0f, 0.25f, 1.0f};
+        shot.scene.shapes.push_back(shape);
+    };
+    put(SHAPE_MANDELBULB, 6, {0, 0.9f, 0}, 0.75f, 0.0f, {0.6f, 0.3f, 0.2f});
+    put(SHAPE_MENGER, 3, {-1.6f, 0.55f, 0.2f}, 0.55f, 0.5f, {0.3f, 0.4f, 0.5f});
+    put(SHAPE_SIERPINSKI, 5, {1.55f, 0.6f, 0.3f}, 0.6f, 0.9f, {0.3f, 0.5f, 0.2f});
+    put(SHAPE_TORUS, 0, {0.5f, 0.12f, 1.5f}, 0.45f, 0.0f, {0.7f, 0.6f, 0.2f});
+    shot.frame.weather.snow_amount = 0.4f;
+    shot.frame.weather.water_to_snow = 1.0f;
+    return shot;
+}
+
 }  // namespace
 
 std::vector<Case> surface_cases()
@@ -342,6 +366,7 @@ std::vector<Case> surface_cases()
         {"double_sided", "what is seen from behind", double_sided},
         {"every_slot", "all textures of a material, each with its own coordinates", every_slot},
         {"aovs", "every AOV of one rich frame", aovs},
+        {"marched_shapes", "fractals and a ring that rays are marched to, in a little snow", marched_shapes},
     };
 }
 

@@ -10,6 +10,8 @@ const uint SURFACE_BAKED = 0u;
 #define SURFACE_ALPHA 1
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
+#include "gpu/frame/plane_step.glsl"
+
 layout(set = 0, binding = DECAL_DEPTH) uniform sampler2D depth_map;
 layout(set = 0, binding = DECAL_NORMALS) uniform sampler2D normals_map;
 
@@ -34,19 +36,6 @@ vec3 in_box(vec3 direction)
 {
     return vec3(dot(draw.to_box[0].xyz, direction), dot(draw.to_box[1].xyz, direction),
                 dot(draw.to_box[2].xyz, direction));
-}
-
-// From a point of a plane to where the ray of a pixel beside it meets the plane.
-vec3 plane_step(vec3 point, vec3 normal, vec2 pixel)
-{
-    const bool orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
-    const vec3 origin = orthographic ? frame.origin_corner + frame.ray_dx * pixel.x + frame.ray_dy * pixel.y
-                                     : frame.camera_m;
-    const vec3 along = orthographic ? frame.forward : pixel_ray(frame, pixel);
-    // Seen edge-on, the plane runs away: a slope of 1 in 20 is the steepest that counts.
-    const float size = length(along);
-    const float lean = min(dot(normal, along), -0.05 * size);
-    return origin + along * (dot(normal, point - origin) / lean) - point;
 }
 #endif
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gpu/passes/depth_maps/depth_maps_io.h"
+#include "gpu/passes/shapes/shapes.h"
 #include "gpu/upload/draw.h"
 
 namespace petrichor::gpu {
@@ -30,14 +31,18 @@ ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uin
 
 namespace {
 
-bool is_caster(const GpuScene& scene, const Draw& draw, Falls falls)
+bool casts(const GpuMaterial& material, Falls falls)
 {
-    const GpuMaterial& material = scene.materials()[draw.material];
-    if (!draw.casts || draw.index_count == 0) return false;
-    if (draw.overlay && falls != Falls::Light) return false;
     if (material.blended && falls == Falls::Rain) return false;
     if (material.glows && falls == Falls::Lamp) return false;
     return material.casts_shadows || falls == Falls::Rain;
+}
+
+bool is_caster(const GpuScene& scene, const Draw& draw, Falls falls)
+{
+    if (!draw.casts || draw.index_count == 0) return false;
+    if (draw.overlay && falls != Falls::Light) return false;
+    return casts(scene.materials()[draw.material], falls);
 }
 
 bool holes_in_relief(const GpuMaterial& material)
@@ -66,6 +71,10 @@ Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::m
     };
     Casters casters;
     casters.seen = triangles.list(scene, {clip_from_world, size, size, {glm::vec2(0.0f)}, falls == Falls::Light, asked}, true, wanted);
+    casters.size = size;
+    for (const Draw* shape : shapes_in(scene, clip_from_world, asked)) {
+        if (casts(scene.materials()[shape->material], falls)) casters.shapes.push_back(shape);
+    }
     InstancePlaces& places = triangles.places();
     casters.places = places.texels();
     const auto listed = [&](const Draw& draw) {
@@ -181,6 +190,8 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
         set_facing(commands, VK_CULL_MODE_NONE, run.first->mirrored);
         binder.draw_run(*run.first, run.count, run.first_place);
     }
+    if (!casters.shapes.empty())
+        draw_shape_depths(pass, scene, map_view(clip_from_world, eye, casters.size, falls != Falls::Lamp), casters.shapes);
 }
 
 namespace {

@@ -54,6 +54,8 @@ struct Casters {
     };
     std::vector<const Draw*> single;
     std::vector<Run> runs;
+    std::vector<const Draw*> shapes;        ///< that rays are marched to
+    int size = 0;                           ///< texels a side of the map
     GpuBuffer* places = nullptr;            ///< of the runs (gpu/upload/instance_places.h)
     std::shared_ptr<const SeenDraws> seen;  ///< of single ones; null: all their triangles
 };

@@ -9,6 +9,7 @@ layout(constant_id = RESOLVE_SPEC_WEATHER) const uint SURFACE_WEATHER = 1u;
 layout(constant_id = RESOLVE_SPEC_EMISSION) const uint SURFACE_EMISSION = 1u;
 layout(constant_id = RESOLVE_SPEC_PAYLOAD) const uint SURFACE_PAYLOAD = 1u;
 layout(constant_id = RESOLVE_SPEC_BAKED) const uint SURFACE_BAKED = 0u;
+layout(constant_id = RESOLVE_SPEC_SHAPES) const uint SHAPES = 0u;
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
 layout(local_size_x = RESOLVE_GROUP) in;
@@ -28,7 +29,10 @@ layout(set = 0, binding = RESOLVE_COUNTS) uniform usamplerBuffer ends;
 GBUFFER_TABLE(ROW)
 #undef ROW
 layout(set = 0, binding = RESOLVE_SHARES, rgba32ui) uniform writeonly uimage2D out_shares;
+layout(set = 0, binding = RESOLVE_DEPTH) uniform sampler2D depth_map;
 layout(push_constant, scalar) uniform Push { SurfaceResolveParams params; };
+
+#include "gpu/frame/plane_step.glsl"
 
 struct Corner {
     vec3 position;  // world, relative to the camera
@@ -99,6 +103,8 @@ vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 at)
     return a + (b - a) * at.x + (c - a) * at.y;
 }
 
+#include "gpu/passes/surface_resolve/shape_point.glsl"
+
 void main()
 {
     // The list of a material ends where listing left its counter; it begins where the one before ends.
@@ -139,6 +145,7 @@ void main()
     const float side = (dot(face, along) < 0.0) != mirrored ? 1.0 : -1.0;
 
     SurfaceInput s;
+    s.pixel = pixel;
     const Corner a = t.corners[0];
     const Corner b = t.corners[1];
     const Corner c = t.corners[2];
@@ -155,10 +162,10 @@ void main()
     s.uv_dy = mixed(a.uv, b.uv, c.uv, at_y) - s.uv;
     s.color = mixed(a.color, b.color, c.color, at);
     s.weather = mixed(a.weather, b.weather, c.weather, at);
-    s.pixel = pixel;
     s.instance_id = facts.w;
     s.material_id = params.material;
     s.look = more.y;
+    if (SHAPES != 0u && more.z != 0u) shape_point(s, draw, id.y);
 
     SurfaceData data = evaluate_surface(s);
     data.texel.emission = data.emission;

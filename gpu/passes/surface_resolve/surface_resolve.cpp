@@ -28,7 +28,7 @@ std::vector<glm::uvec4> draw_table(const GpuScene& scene)
         for (const glm::vec4& row : c.normal_to_world) table.push_back(bits_of(row));
         table.emplace_back(draw.first_index, static_cast<std::uint32_t>(draw.vertex_offset),
                            draw.material, draw.instance_id);
-        table.emplace_back(draw.mirrored ? 1u : 0u, draw.look, 0u, 0u);
+        table.emplace_back(draw.mirrored ? 1u : 0u, draw.look, draw.shape >= 0 ? 1u : 0u, 0u);
     }
     if (table.empty()) table.emplace_back(0u);
     return table;
@@ -188,6 +188,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {RESOLVE_COUNTS, texels(counts)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     bindings.push_back({RESOLVE_SHARES, storage(*tables.shares)});
+    bindings.push_back({RESOLVE_DEPTH, scene.shapes().empty() ? sampled(*maps.ripple, maps.trilinear)
+                                                              : sampled(*targets.gbuffer.depth, targets.nearest)});
 #define ROW(name, location, format, when, meaning) \
     bindings.push_back({RESOLVE_TARGETS + location, storage(*targets.gbuffer.name)});
     GBUFFER_TABLE(ROW)
@@ -220,7 +222,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {RESOLVE_SPEC_WEATHER, parts.weather},
             {RESOLVE_SPEC_EMISSION, glows(material)},
             {RESOLVE_SPEC_PAYLOAD, (material.besides & BESIDES_AS_CLEARED) == 0},
-            {RESOLVE_SPEC_BAKED, parts.baked}};
+            {RESOLVE_SPEC_BAKED, parts.baked},
+            {RESOLVE_SPEC_SHAPES, material.on_shapes}};
     };
     clear_targets(graph, targets, parts);
     const char* shader = scene.own_surfaces().any() ? kOwnResolveShader : kResolveShader;

@@ -14,7 +14,7 @@
 #define RESOLVE_TILE_MATERIALS 64
 
 // Texels (RGBA32UI) of one draw in the table of draws: the rows of its two transforms, then
-// first index, vertex offset, material, instance; then 1 when mirrored, and the instance's look.
+// first index, vertex offset, material, instance; then 1 when mirrored, the instance's look, 1 of a marched shape.
 #define RESOLVE_DRAW_TEXELS 8
 
 #define TILE_MATERIALS_GROUP 8
@@ -38,10 +38,12 @@
 #define RESOLVE_PIXELS (SURFACE_BINDINGS + 4)
 #define RESOLVE_COUNTS (SURFACE_BINDINGS + 5)
 #define RESOLVE_SHARES (SURFACE_BINDINGS + 6)  // of layers a pixel; in scenes that have textures of them
-#define RESOLVE_TARGETS (SURFACE_BINDINGS + 7)  // of the G-buffer, by location
+#define RESOLVE_DEPTH (SURFACE_BINDINGS + 7)  // of scenes that have marched shapes
+#define RESOLVE_TARGETS (SURFACE_BINDINGS + 8)  // of the G-buffer, by location
 #define RESOLVE_SPEC_WEATHER 5
 #define RESOLVE_SPEC_EMISSION 6
 #define RESOLVE_SPEC_BAKED 7
+#define RESOLVE_SPEC_SHAPES 36   // 1: marched shapes show the material
 #define RESOLVE_SPEC_PAYLOAD 35  // 0: as the target is cleared
 
 SHARED_BEGIN
