@@ -37,8 +37,8 @@ uvec3 place_leaf(ivec3 cell0, int axis)
 }
 
 // x: the patch at a point of a surface, kNoPatch where none is near. y: the one at the point moved by
-// `turn`, -0.5 to 0.5, of the patch's cell along the surface: the mean over many turns blends between
-// patches linearly. Not across walls.
+// `turn`, -0.5 to 0.5, of the patch's cell along the surface, of the finer one of two: the mean over many
+// turns blends between patches linearly. Not across walls.
 uvec2 place_patches(vec3 x, vec3 n, vec3 turn)
 {
     if (frame.place.grid.levels == 0u) return uvec2(kNoPatch);
@@ -64,7 +64,18 @@ uvec2 place_patches(vec3 x, vec3 n, vec3 turn)
                       ivec3(cell0.x >> up, cell0.y >> up, cell0.z >> up) + ivec3(1);
     const uint bit = uint(way.x + 3 * way.y + 9 * way.z);
     if (((own.y >> bit) & 1u) == 0u) return own.xx;
-    const uvec3 other = place_leaf(there, axis);
+    uvec3 other = place_leaf(there, axis);
+    if (other.x != kNoPatch && other.z < own.z) {
+        // Where cells are finer they blend over half of their own width: further in lies what this
+        // cell does not see, as the ground within a well.
+        const float finer_m = frame.place.grid.cell_m * float(1 << other.z);
+        const ivec3 nearer = patch_cell(lifted + turn * finer_m, inverse_cell);
+        if (ivec3(nearer.x >> up, nearer.y >> up, nearer.z >> up) ==
+            ivec3(cell0.x >> up, cell0.y >> up, cell0.z >> up)) {
+            return own.xx;
+        }
+        other = place_leaf(nearer, axis);
+    }
     return uvec2(own.x, other.x == kNoPatch ? own.x : other.x);
 }
 

@@ -196,6 +196,55 @@ TEST_F(PlaceTest, GroundBeyondThePatchesIsWhatTheyAreInTheOpen)
     EXPECT_THROW(renderer->render(from_above(wrong)), Error);
 }
 
+// Ground around a well is cut coarsely, that within finely: none of the dry ground within shows outside.
+TEST_F(PlaceTest, GroundAroundAWellHasNothingOfTheGroundWithin)
+{
+    load_floor();
+    std::vector<Primitive> walls{quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8})};
+    const auto box = [&](float half, float sign) {
+        const glm::vec3 corners[] = {{-half, 0, half}, {half, 0, half}, {half, 0, -half}, {-half, 0, -half}};
+        for (int k = 0; k < 4; ++k) {
+            const glm::vec3 a = corners[k], b = corners[(k + 1) % 4];
+            walls.push_back(sign > 0.0f ? quad(a, b - a, {0, 0.5f, 0}) : quad(b, a - b, {0, 0.5f, 0}));
+        }
+    };
+    box(0.6f, 1.0f);
+    box(0.5f, -1.0f);
+    const Scene well = scene_of(walls, {plain_material(glm::vec3(0.3f))});
+    const scene::Triangles triangles(well, {});
+    const scene::Tracer tracer(triangles);
+    scene::PatchOptions options;
+    options.cell_m = 0.175f;
+    options.rays = 32;
+    patches = scene::build_patches(tracer, options);
+    renderer->load(well, {});
+    shape->grid = scene::table_grid(patches);
+    shape->table = patches.table;
+    auto place = dry();
+    std::size_t within = 0;
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const glm::vec3 p = patches.position_m[i];
+        const bool inside = std::abs(p.x) < 0.55f && std::abs(p.z) < 0.55f;
+        within += inside ? 1 : 0;
+        place->states[i * PLACE_STATE_TEXELS].x = inside ? 0.0f : 1.0f;
+    }
+    ASSERT_GT(within, 4u);
+    Frame frame = from_above(place);
+    frame.settings.width = frame.settings.height = 256;
+    const RenderResult r = renderer->render(frame);
+    std::size_t outside = 0;
+    for (int y = 0; y < 256; ++y) {
+        for (int x = 0; x < 256; ++x) {
+            const float px = aov(r, "position", x, y, 0), pz = aov(r, "position", x, y, 2);
+            if (aov(r, "position", x, y, 1) > 0.01f) continue;
+            if (std::max(std::abs(px), std::abs(pz)) < 0.75f) continue;
+            ++outside;
+            EXPECT_GT(aov(r, "film", x, y), 0.99f) << px << " " << pz;
+        }
+    }
+    EXPECT_GT(outside, 10000u);
+}
+
 TEST_F(PlaceTest, PondsAreFlatAndAsDeepAsTheirLevel)
 {
     load_floor();

@@ -78,8 +78,8 @@ LocalWeather local_weather(SurfaceInput at)
     uvec2 near = place_patches(at.position, at.normal, turn - 0.5);
     // A wall does not blend into the lamp before it, nor a kerb into the road.
     if (near.x != near.y) {
-        const uint own = uint(place_state(near.x, 3).w), other = uint(place_state(near.y, 3).w);
-        if (other != at.material_id && (own == at.material_id || own != other)) near.y = near.x;
+        const uint other = uint(place_state(near.y, 3).w);
+        if (other != at.material_id && other != uint(place_state(near.x, 3).w)) near.y = near.x;
     }
     const bool beyond = near.y == kNoPatch;
     // Ground goes on beyond its patches as they are in the open, or a border would show.
