@@ -165,6 +165,21 @@ SHARED_FN float snow_holds(vec2 xz, float width_m)
     return 0.3f * tufts + 0.4f * steps;
 }
 
+// What steep wide ground catches in its relief, 0..1, of what lies on level ground: it is not one slope but steps and
+// tufts, whose slopes lie around that of the mesh by 12 degrees, and what of them is flatter than 55 degrees holds
+// snow (ours). So a third of the ground holds it at 60 degrees, a tenth at 70, and it lies along the contour lines.
+// up: y of the normal of the mesh. width_m: of the pixel; half of the variance is lost at 0.7 m.
+SHARED_FN float snow_caught(vec3 position_m, float up, float width_m)
+{
+    const float y = 2.2f * position_m.y;
+    const float one = endless_noise(vec2(0.8f * position_m.x + 0.6f * position_m.z, y) / 1.1f, 261u);
+    const float other = endless_noise(vec2(0.8f * position_m.z - 0.6f * position_m.x, y) / 1.1f + 5.2f, 271u);
+    const float deviations = (0.5f * (one + other) - 0.5f) / 0.16f;
+    const float lost = variance_lost(width_m, 0.7f);
+    const float soft = 0.05f + 0.3f * sqrt(lost);
+    return smooth_edge(0.57f - soft, 0.57f + soft, up + 0.18f * deviations * sqrt(1.0f - lost));
+}
+
 // `blurred` of snow_cover for the masks of weather_maps.h: their mean 0.7067 and deviation 0.135 are those of
 // snow_texel, of which half the variance is lost at 0.106 of a tile. width_m: of the pixel on the ground; tiling:
 // repeats per metre of the mask and its detail.

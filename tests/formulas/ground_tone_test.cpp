@@ -173,5 +173,28 @@ TEST(SnowHolds, IsNothingInTheMeanAndLessInAWidePixel)
     EXPECT_LT(spread_of(4000, [](vec2 at) { return snow_holds(at, 30.0f); }).deviation, 0.2 * s.deviation);
 }
 
+// A third of the ground holds snow at 60 degrees, a tenth at 70; a wide pixel has the mean of its places.
+TEST(SnowCaught, ThinsOutOverTheSlopesOfItsRelief)
+{
+    const auto share = [](float degrees, float width_m) {
+        const float up = std::cos(degrees * 0.01745329f);
+        return spread_of(20000, [&](vec2 at) { return snow_caught(vec3(at.x, 0.71f * at.x - 0.4f * at.y, at.y), up, width_m); });
+    };
+    EXPECT_GT(share(35, 0).mean, 0.9);
+    EXPECT_NEAR(share(60, 0).mean, 0.35, 0.06);
+    EXPECT_NEAR(share(70, 0).mean, 0.1, 0.05);
+    EXPECT_LT(share(80, 0).mean, 0.03);
+    EXPECT_GT(share(60, 0).deviation, 0.3) << "in places, not as a veil";
+    double before = 1.1;
+    for (float degrees = 30; degrees <= 85; degrees += 5) {
+        const double here = share(degrees, 0).mean;
+        EXPECT_LE(here, before);
+        EXPECT_NEAR(share(degrees, 0.7f).mean, here, 0.05) << degrees;
+        EXPECT_NEAR(share(degrees, 20.0f).mean, here, 0.05) << degrees;
+        before = here;
+    }
+    EXPECT_LT(share(60, 20.0f).deviation, 0.03);
+}
+
 }  // namespace
 }  // namespace petrichor::shared

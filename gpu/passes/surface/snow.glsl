@@ -87,8 +87,18 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
         // Level ground holds all of it; it counts from where snow would slide.
         holds += (1.0 - smooth_edge(0.7, 0.85, at.normal.y)) * snow_holds(at.position.xz, sqrt(max(dot(dx, dx), dot(dy, dy))));
     }
-    return snow_cover(amount, height, smoothed_up + holds, material.snow_slope_damp,
-                      unique_mask(at), mask, detail, melt, blurred);
+    const float unique = unique_mask(at);
+    SnowCover cover = snow_cover(amount, height, smoothed_up + holds, material.snow_slope_damp, unique, mask, detail,
+                                 melt, blurred);
+    if ((BESIDES & BESIDES_WIDE_GROUND) != 0u && at.normal.y < 0.85) {
+        const vec2 dx = at.position_dx.xz;
+        const vec2 dy = at.position_dy.xz;
+        const float caught = snow_caught(at.position, at.normal.y, sqrt(max(dot(dx, dx), dot(dy, dy))));
+        const SnowCover level = snow_cover(amount, height, 1.0, 0.0, unique, mask, detail, melt, blurred);
+        cover.snow = max(cover.snow, caught * level.snow);
+        cover.melt = max(cover.melt, caught * level.melt);
+    }
+    return cover;
 }
 
 struct SnowRelief {
