@@ -196,6 +196,44 @@ TEST_F(PlaceTest, GroundBeyondThePatchesIsWhatTheyAreInTheOpen)
     EXPECT_THROW(renderer->render(from_above(wrong)), Error);
 }
 
+// A path along a lawn, whose border runs through cells: each has the weather of its own patches.
+TEST_F(PlaceTest, WhatSharesACellWithAnotherMaterialHasTheWeatherOfItsOwn)
+{
+    load_floor();
+    for (const float border : {0.08f, 0.2f, 0.33f}) {
+        const Scene floor = scene_of({quad({-2, 0, 2}, {2 + border, 0, 0}, {0, 0, -4}),
+                                      quad({border, 0, 2}, {2 - border, 0, 0}, {0, 0, -4}, 1)},
+                                     {plain_material(glm::vec3(0.3f)), plain_material(glm::vec3(0.3f))});
+        const scene::Triangles triangles(floor, {});
+        const scene::Tracer tracer(triangles);
+        scene::PatchOptions options;
+        options.cell_m = 0.5f;
+        options.rays = 32;
+        patches = scene::build_patches(tracer, options);
+        renderer->load(floor, {});
+        shape = std::make_shared<PlaceShape>();
+        shape->grid = scene::table_grid(patches);
+        shape->table = patches.table;
+        auto place = dry();
+        for (std::uint32_t i = 0; i < patches.count; ++i) {
+            place->states[i * PLACE_STATE_TEXELS].x = patches.material[i] == 0 ? 1.0f : 0.0f;
+            place->states[i * PLACE_STATE_TEXELS + 3].w = static_cast<float>(patches.material[i]);
+        }
+        const RenderResult r = renderer->render(from_above(place));
+        std::size_t pixels[2] = {0, 0};
+        for (int y = 8; y < 56; ++y) {
+            for (int x = 8; x < 56; ++x) {
+                const float px = aov(r, "position", x, y, 0);
+                if (std::abs(px - border) < 0.01f) continue;
+                const bool lawn = px > border;
+                ++pixels[lawn ? 1 : 0];
+                EXPECT_NEAR(aov(r, "film", x, y), lawn ? 0.0f : 1.0f, 0.01f) << px << " of " << border;
+            }
+        }
+        EXPECT_GT(std::min(pixels[0], pixels[1]), 400u);
+    }
+}
+
 // Ground around a well is cut coarsely, that within finely: none of the dry ground within shows outside.
 TEST_F(PlaceTest, GroundAroundAWellHasNothingOfTheGroundWithin)
 {

@@ -66,6 +66,23 @@ void below_what_is_near(inout LocalWeather here, SurfaceInput at)
     here.frost *= min(open.sky, 1.0);
 }
 
+// A patch has the material of most of its cell: of that of the point one is looked for a cell further, on
+// four sides from a random one on. A wall does not blend into the lamp before it, nor a path into the lawn.
+uint patch_of_material(SurfaceInput at, uvec2 near, vec3 turn)
+{
+    if (near.y == kNoPatch) return near.y;
+    const uint found = uint(place_state(near.y, 3).w);
+    if (found == at.material_id) return near.y;
+    vec3 way = turn - at.normal * dot(turn, at.normal);
+    way /= max(max(abs(way.x), max(abs(way.y), abs(way.z))), 1.0e-3);
+    for (int side = 0; side < 4; ++side) {
+        const uint other = place_patch(at.position, at.normal, way);
+        if (uint(place_state(other, 3).w) == at.material_id) return other;
+        way = side == 1 ? cross(at.normal, way) : -way;
+    }
+    return found == uint(place_state(near.x, 3).w) ? near.y : near.x;
+}
+
 LocalWeather local_weather(SurfaceInput at)
 {
     if (PLACE == 0u) return weather_everywhere(at, true);
@@ -76,11 +93,7 @@ LocalWeather local_weather(SurfaceInput at)
     const vec3 turn =
         fract(first + float(frame.sample_index) * vec3(0.8191725, 0.6710436, 0.5497005));
     uvec2 near = place_patches(at.position, at.normal, turn - 0.5);
-    // A wall does not blend into the lamp before it, nor a kerb into the road.
-    if (near.x != near.y) {
-        const uint other = uint(place_state(near.y, 3).w);
-        if (other != at.material_id && other != uint(place_state(near.x, 3).w)) near.y = near.x;
-    }
+    near.y = patch_of_material(at, near, turn - 0.5);
     const bool beyond = near.y == kNoPatch;
     // Ground goes on beyond its patches as they are in the open, or a border would show.
     if (beyond && place_open(at.normal, at.material_id)) near = uvec2(frame.place.open_patch);
