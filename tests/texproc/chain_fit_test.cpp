@@ -270,5 +270,22 @@ TEST(ChainFitRule, SameNumbersForAnyThreads)
     EXPECT_TRUE(moved);
 }
 
+// Where normals are not written with it.
+TEST(ChainFitRule, RoughnessAloneKeepsTheNormals)
+{
+    const ScoredMaps maps = cloth(48);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pixels());
+    PrefilterOptions options{.rule = "picture", .joint = false, .quick = true};
+    const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
+    Prefiltered fitted = start;
+    fit_chain(bench.levels(), options, fitted);
+    bool moved = false;
+    for (std::size_t k = 1; k < start.normal.size(); ++k) {
+        EXPECT_EQ(fitted.normal[k].pixels, start.normal[k].pixels) << k;
+        moved |= fitted.roughness[k].pixels != start.roughness[k].pixels;
+    }
+    EXPECT_TRUE(moved);
+}
+
 }  // namespace
 }  // namespace petrichor::texproc

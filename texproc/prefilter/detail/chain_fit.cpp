@@ -331,6 +331,9 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
                     s = kKeepSquare * s + (1.0f - kKeepSquare) * g * g;
                     return at - rate * (m / full) / (std::sqrt(s / full_square) + 1e-3f);
                 };
+                t.stored =
+                    std::clamp(moved(t.stored, slope[3], mean.stored, square.stored), 0.0f, 1.0f);
+                if (!options_.joint) continue;
                 float square_length = 0.0f;
                 for (int c = 0; c < 3; ++c) {
                     t.n[c] = moved(t.n[c], slope[c], mean.n[c], square.n[c]);
@@ -338,8 +341,6 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
                 }
                 const float length = std::sqrt(std::max(square_length, 1e-12f));
                 for (float& n_c : t.n) n_c /= length;
-                t.stored =
-                    std::clamp(moved(t.stored, slope[3], mean.stored, square.stored), 0.0f, 1.0f);
             }
         });
 }
@@ -398,11 +399,12 @@ void ChainFit::store(Prefiltered& chain) const
     for (std::size_t k = first_; k <= last_; ++k) {
         for (std::size_t i = 0; i < texels_[k].size(); ++i) {
             const FitTexel& t = texels_[k][i];
+            chain.roughness[k].pixels[i] = t.stored;
+            if (!options_.joint) continue;
             float* n = &chain.normal[k].pixels[3 * i];
             n[0] = 0.5f + 0.5f * t.n[0];
             n[1] = 0.5f + 0.5f * (options_.green_down ? -t.n[1] : t.n[1]);
             n[2] = 0.5f + 0.5f * t.n[2];
-            chain.roughness[k].pixels[i] = t.stored;
         }
     }
 }
