@@ -251,8 +251,9 @@ std::vector<Image> ImageMaker::normal_levels(const ImageRecipe& recipe) const
     const Image normals = decode(recipe.image, ColorSpace::Data, 3);
     std::vector<Image> levels = plain_levels(normals, "normal", mip_options(recipe));
     // Only rules that re-aim normals need the roughness here.
-    const bool aims =
-        options_.prefilter.rule == "overlap" || options_.prefilter.rule == "student-t";
+    const PrefilterChoice& choice = options_.prefilter;
+    const bool aims = choice.rule == "overlap" || choice.rule == "student-t" ||
+                      (choice.rule == "picture" && !choice.quick);
     if (recipe.surface < 0 || !aims) return levels;
     const Image surface =
         resized(decode(static_cast<std::size_t>(recipe.surface), ColorSpace::Data, 3),

@@ -283,6 +283,11 @@ std::vector<Image> PictureBench::plain_roughness() const
     return levels;
 }
 
+const std::vector<Level>& PictureBench::levels() const
+{
+    return state_->plain;
+}
+
 const PictureOptions& PictureBench::options() const
 {
     return state_->options;

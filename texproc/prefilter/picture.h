@@ -14,6 +14,7 @@
 namespace petrichor::texproc {
 
 namespace detail {
+struct Level;
 struct MapSurface;
 }
 
@@ -97,6 +98,9 @@ public:
 
     /// The picture of a case as it is shown, one channel 0..1; with no chain the truth.
     Image picture(std::size_t which, int frame, const Prefiltered* chain) const;
+
+    /// The maps and their plain mips, as they are rendered.
+    const std::vector<detail::Level>& levels() const;
 
     const PictureOptions& options() const;
 

@@ -22,7 +22,8 @@ struct PrefilterOptions {
     int channel = 0;                 ///< of the second map
 
     float design_light = 0.0f;  ///< overlap, student-t, median: alpha of the light to fit for
-    bool joint = true;          ///< overlap: may re-aim the normals; else only roughness changes
+    /// overlap, picture in full: may re-aim the normals; else only roughness changes.
+    bool joint = true;
     bool anisotropic = false;   ///< overlap: elliptic lobes where they help
     bool quick = false;         ///< overlap, picture: less search
     int bits = 0;               ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats

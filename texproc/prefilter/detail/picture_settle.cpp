@@ -1,10 +1,12 @@
 #include "texproc/prefilter/detail/picture_settle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "texproc/prefilter/detail/chain_fit.h"
 #include "texproc/prefilter/picture.h"
 
 namespace petrichor::texproc::detail {
@@ -14,6 +16,7 @@ namespace {
 // Shares of what was fitted, and of the darkening of the base colour.
 constexpr float kShares[] = {1.3f, 1.0f, 0.75f, 0.5f, 0.25f, 0.0f};
 constexpr float kDark[] = {1.0f, 0.5f, 0.0f};
+constexpr float kFitted[] = {1.0f, 0.75f, 0.5f, 0.25f}, kFittedLevel[] = {1.0f, 0.5f, 0.0f};
 constexpr double kFlickerWeight = 0.3;
 // What a case costs that is worse than plain mips, beside its part of the mean. Fewer would let one
 // picture pay for the gain of another.
@@ -42,6 +45,65 @@ double cost_of(const std::vector<PictureScore>& scores, const std::vector<Pictur
         }
     }
     return sum / static_cast<double>(scores.size());
+}
+
+// A level between two: 0 the first, 1 the second.
+void mix(const Image& from, const Image& to, float share, Image& mixed)
+{
+    for (std::size_t i = 0; i < mixed.pixels.size(); ++i)
+        mixed.pixels[i] = from.pixels[i] + share * (to.pixels[i] - from.pixels[i]);
+    if (mixed.channels < 3) return;
+    for (std::size_t i = 0; i < mixed.pixels.size(); i += 3) {  // normals, made unit length again
+        float* code = &mixed.pixels[i];
+        float squares = 0.0f;
+        for (int c = 0; c < 3; ++c) squares += (2.0f * code[c] - 1.0f) * (2.0f * code[c] - 1.0f);
+        const float scale = 1.0f / std::sqrt(std::max(squares, 1e-12f));
+        for (int c = 0; c < 3; ++c) code[c] = 0.5f + scale * (code[c] - 0.5f);
+    }
+}
+
+// Fits all texels to pixels, and keeps that share of it with which the pictures are best.
+void settle_fit(const PictureBench& bench, const std::vector<PictureScore>& plain,
+                const PrefilterOptions& options, Prefiltered& chain)
+{
+    // Levels that are fitted, which are small, before and after.
+    const std::size_t levels = chain.roughness.size();
+    std::vector<std::array<Image, 2>> before(levels), after(levels);
+    const auto keep = [&](std::size_t k) {
+        return std::array<Image, 2>{chain.roughness[k], chain.normal[k]};
+    };
+    for (std::size_t k = 1; k < levels; ++k)
+        if (is_fitted(chain.roughness[k].width, chain.roughness[k].height)) before[k] = keep(k);
+    std::vector<float> best(levels, 0.0f), now(levels, 1.0f);
+    double least = cost_of(bench.score(chain), plain, false);
+    fit_chain(bench.levels(), options, chain);
+    for (std::size_t k = 1; k < levels; ++k)
+        if (!before[k][0].empty()) after[k] = keep(k);
+    const auto show = [&](const std::vector<float>& shares) {
+        for (std::size_t k = 1; k < levels; ++k) {
+            if (before[k][0].empty() || shares[k] == now[k]) continue;
+            mix(before[k][0], after[k][0], shares[k], chain.roughness[k]);
+            mix(before[k][1], after[k][1], shares[k], chain.normal[k]);
+        }
+        now = shares;
+    };
+    const auto attempt = [&](const std::vector<float>& shares) {
+        show(shares);
+        const double cost = cost_of(bench.score(chain), plain, false);
+        if (!(cost < least - kClear)) return;
+        least = cost;
+        best = shares;
+    };
+    for (const float share : kFitted) attempt(std::vector<float>(levels, share));
+    for (std::size_t k = levels; k-- > 1;) {
+        if (before[k][0].empty()) continue;
+        for (const float share : kFittedLevel) {
+            std::vector<float> shares = best;
+            shares[k] = share;
+            if (share != best[k]) attempt(shares);
+        }
+    }
+    show(best);
 }
 
 }  // namespace
@@ -100,6 +162,7 @@ void settle_picture(const MapSurface& surface, const PrefilterOptions& options, 
             share = 1.0f + best.base[k] * (share - 1.0f);
         }
     }
+    if (!options.quick) settle_fit(bench, plain_scores, options, chain);
 }
 
 }  // namespace petrichor::texproc::detail

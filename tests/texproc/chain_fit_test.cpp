@@ -1,0 +1,305 @@
+// Texels that are fitted to pixels: the light in lanes is that of the floor, its slopes are slopes,
+// and pictures that the fit has not seen get nearer to the truth and hold stiller.
+#include "texproc/prefilter/detail/chain_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "texproc/prefilter/detail/chain_fit_kernel.h"
+#include "texproc/prefilter/picture.h"
+#include "texproc/study/fresh_maps.h"
+
+namespace petrichor::texproc {
+namespace {
+
+using namespace detail;
+
+constexpr std::size_t kLights = kFitLights;
+
+// Eight lights about an eye, the last but one a window, the last on metal.
+FitLights lights(std::vector<FloorLight>& as_floor)
+{
+    FitLights to{};
+    const glm::vec3 eye = glm::normalize(glm::vec3(-0.5f, 0.3f, 0.6f));
+    for (int c = 0; c < 3; ++c) to.eye[c] = eye[c];
+    for (std::size_t i = 0; i < kLights; ++i) {
+        const float turn = 0.8f * static_cast<float>(i);
+        const glm::vec3 l = glm::normalize(
+            glm::vec3(std::cos(turn), std::sin(turn), 0.3f + 0.1f * static_cast<float>(i)));
+        const glm::vec3 h = glm::normalize(l + eye);
+        const bool window = i == 6, metal = i == 7;
+        to.lx[i] = l.x, to.ly[i] = l.y, to.lz[i] = l.z;
+        to.hx[i] = h.x, to.hy[i] = h.y, to.hz[i] = h.z;
+        const float f0 = metal ? kMetalF0 : kPaintF0, m = 1.0f - glm::dot(l, h);
+        to.fresnel[i] = f0 + (1.0f - f0) * m * m * m * m * m;
+        to.albedo[i] = metal ? 0.0f : (1.0f - to.fresnel[i]) * kPaintAlbedo / shared::kPi;
+        to.alpha2[i] = window ? 0.01f : 0.0f;
+        as_floor.push_back({l, to.alpha2[i], 1.0f, 0.0f, metal});
+    }
+    return to;
+}
+
+TEST(ChainFitKernel, ShadesAsTheFloorDoes)
+{
+    std::vector<FloorLight> floor;
+    const FitLights q = lights(floor);
+    const glm::vec3 eye(q.eye[0], q.eye[1], q.eye[2]);
+    for (const auto& [slope, p] : {std::pair(0.0f, 0.9f), {0.3f, 0.5f}, {-0.6f, 0.35f}}) {
+        const glm::vec3 n = glm::normalize(glm::vec3(slope, 0.5f * slope, 1.0f));
+        float light[kLights];
+        chain_fit_kernel().mean_light(q, &n.x, &n.y, &n.z, &p, 1, light);
+        for (std::size_t i = 0; i < kLights; ++i) {
+            const float known = shade(n, p, 1.0f, eye, floor[i]);
+            EXPECT_NEAR(light[i], known, 1e-4f * known + 1e-6f) << "light " << i << ", " << p;
+        }
+    }
+}
+
+// A view of two levels with noise on them.
+struct Scene {
+    FitView view{};
+    std::vector<FitTexel> fine, coarse;
+    std::vector<FitSlope> fine_slopes, coarse_slopes;
+    std::vector<FitPixel> pixels;
+
+    Scene() : fine(16 * 16), coarse(8 * 8), fine_slopes(fine.size()), coarse_slopes(coarse.size())
+    {
+        std::vector<FloorLight> floor;
+        view.lights = lights(floor);
+        view.taps = 3;
+        view.step_u = 0.03f, view.step_v = 0.05f;
+        view.share = 0.4f;
+        for (std::size_t i = 0; i < kLights; ++i)
+            view.exposure[i] = 1.5f, view.weight[i] = 1.0f, view.flicker[i] = 0.7f;
+        unsigned number = 1;
+        const auto dice = [&number] {
+            number = number * 1664525u + 1013904223u;
+            return static_cast<float>(number >> 8) / 16777216.0f;
+        };
+        for (std::vector<FitTexel>* level : {&fine, &coarse}) {
+            for (FitTexel& t : *level) {
+                const glm::vec3 n = glm::normalize(glm::vec3(dice() - 0.5f, dice() - 0.5f, 1.0f));
+                t = {{n.x, n.y, n.z}, 0.4f + 0.4f * dice(), 0.9f, {}};
+            }
+        }
+        for (int i = 0; i < 20 * kFitFrames; ++i) {
+            FitPixel p{dice(), dice(), {}};
+            for (std::uint16_t& shown : p.shown)
+                shown = static_cast<std::uint16_t>(20000.0f * dice());
+            pixels.push_back(p);
+        }
+    }
+    FitLevel level(bool of_fine)
+    {
+        return of_fine ? FitLevel{16, 16, fine.data(), fine_slopes.data()}
+                       : FitLevel{8, 8, coarse.data(), coarse_slopes.data()};
+    }
+    // Nothing is clipped, and lights that are nearly black somewhere do not count: the slope is
+    // held back in both.
+    void expose()
+    {
+        std::vector<float> out(pixels.size() * kLights);
+        chain_fit_kernel().seen(view, {}, level(true), level(false), pixels.data(),
+                                static_cast<int>(pixels.size()), out.data());
+        int counted = 0;
+        for (std::size_t l = 0; l < kLights; ++l) {
+            float least = out[l], most = out[l];
+            for (std::size_t i = l; i < out.size(); i += kLights)
+                least = std::min(least, out[i]), most = std::max(most, out[i]);
+            view.exposure[l] *= 0.8f / most;
+            if (least > 0.02f * most)
+                ++counted;
+            else
+                view.weight[l] = view.flicker[l] = 0.0f;
+        }
+        EXPECT_GE(counted, 4);
+    }
+    // Half of what add_slopes() takes the slope of.
+    double cost()
+    {
+        const int count = static_cast<int>(pixels.size());
+        std::vector<float> out(pixels.size() * kLights);
+        chain_fit_kernel().seen(view, {}, level(true), level(false), pixels.data(), count,
+                                out.data());
+        double sum = 0.0;
+        for (std::size_t i = 0; i < pixels.size(); i += kFitFrames) {
+            for (std::size_t l = 0; l < kLights; ++l) {
+                double e[kFitFrames], mean = 0.0;
+                for (std::size_t f = 0; f < kFitFrames; ++f) {
+                    const double light = static_cast<double>(out[(i + f) * kLights + l]);
+                    e[f] = std::sqrt(light) - pixels[i + f].shown[l] / 65535.0;
+                    mean += e[f] / kFitFrames;
+                }
+                for (const double error : e)
+                    sum += 0.5 *
+                           (static_cast<double>(view.weight[l]) * error * error +
+                            static_cast<double>(view.flicker[l]) * (error - mean) * (error - mean));
+            }
+        }
+        return sum;
+    }
+};
+
+TEST(ChainFitKernel, SlopesAreThoseOfTheError)
+{
+    Scene s;
+    s.expose();
+    chain_fit_kernel().add_slopes(s.view, {}, s.level(true), s.level(false), s.pixels.data(),
+                                  static_cast<int>(s.pixels.size()));
+    double largest = 0.0;
+    for (const bool of_fine : {true, false}) {
+        std::vector<FitTexel>& texels = of_fine ? s.fine : s.coarse;
+        const std::vector<FitSlope>& slopes = of_fine ? s.fine_slopes : s.coarse_slopes;
+        for (const std::size_t i : {std::size_t{0}, texels.size() / 2, texels.size() - 3}) {
+            for (int c = 0; c < 4; ++c) {
+                float& value = c < 3 ? texels[i].n[c] : texels[i].stored;
+                const float was = value, step = 0.02f;
+                value = was + step;
+                const double above = s.cost();
+                value = was - step;
+                const double below = s.cost();
+                value = was;
+                const double known = (above - below) / (2.0 * static_cast<double>(step));
+                const double found = static_cast<double>(c < 3 ? slopes[i].n[c] : slopes[i].stored);
+                EXPECT_NEAR(found, known, 0.05 * std::abs(known) + 2e-4)
+                    << of_fine << " " << i << " " << c;
+                largest = std::max(largest, std::abs(known));
+            }
+        }
+    }
+    EXPECT_GT(largest, 0.01);
+}
+
+TEST(ChainFitKernel, BothInstructionSetsGiveTheSameBits)
+{
+#if defined(__x86_64__)
+    if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
+#endif
+    Scene a, b;
+    const int count = static_cast<int>(a.pixels.size());
+    kChainFitKernelBase.add_slopes(a.view, {}, a.level(true), a.level(false), a.pixels.data(),
+                                   count);
+    kChainFitKernelAvx2.add_slopes(b.view, {}, b.level(true), b.level(false), b.pixels.data(),
+                                   count);
+    const auto same = [](const std::vector<FitSlope>& x, const std::vector<FitSlope>& y) {
+        return std::memcmp(x.data(), y.data(), x.size() * sizeof(FitSlope)) == 0;
+    };
+    EXPECT_TRUE(same(a.fine_slopes, b.fine_slopes));
+    EXPECT_TRUE(same(a.coarse_slopes, b.coarse_slopes));
+}
+
+PictureOptions few_pixels()
+{
+    PictureOptions o = reference_pictures();
+    o.views[0].width = 60;
+    o.views[0].rows = 40;
+    o.frames = 3;
+    o.samples = 8;
+    return o;
+}
+
+ScoredMaps cloth(int size)
+{
+    for (ScoredMaps& maps : fresh_maps(size, 21))
+        if (maps.name.starts_with("cloth")) return std::move(maps);
+    ADD_FAILURE() << "there is no cloth";
+    return {};
+}
+
+// Of smoothness and green down too: the fit reads and writes what the maps mean.
+class ChainFit : public testing::TestWithParam<bool> {};
+
+TEST_P(ChainFit, PicturesThatItHasNotSeenAreNearerAndHoldStiller)
+{
+    ScoredMaps maps = cloth(96);
+    PrefilterOptions options{.rule = "picture", .quick = true};
+    if (GetParam()) {
+        options.smoothness = options.green_down = true;
+        Image n = to_image(maps.normal, ColorSpace::Data),
+              r = to_image(maps.roughness, ColorSpace::Data);
+        for (std::size_t i = 1; i < n.pixels.size(); i += 3) n.pixels[i] = 1.0f - n.pixels[i];
+        for (float& p : r.pixels) p = 1.0f - p;
+        maps.normal = to_raw(n, PixelType::U16), maps.roughness = to_raw(r, PixelType::U16);
+    }
+    const PictureBench bench(maps.normal, maps.roughness, options, few_pixels());
+    const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
+    Prefiltered fitted = start;
+    fit_chain(bench.levels(), options, fitted);
+    const auto before = bench.score(start), after = bench.score(fitted);
+    double rmse = 0.0, flicker = 0.0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        rmse += after[i].rmse / before[i].rmse / static_cast<double>(after.size());
+        flicker += after[i].flicker / before[i].flicker / static_cast<double>(after.size());
+    }
+    EXPECT_LT(rmse, 0.95);
+    EXPECT_LT(flicker, 0.95);
+    for (std::size_t k = 1; k < fitted.normal.size(); ++k) {
+        for (std::size_t i = 0; i < fitted.normal[k].pixels.size(); i += 3) {
+            const float* n = &fitted.normal[k].pixels[i];
+            const glm::vec3 decoded(2.0f * n[0] - 1.0f, 2.0f * n[1] - 1.0f, 2.0f * n[2] - 1.0f);
+            ASSERT_NEAR(glm::length(decoded), 1.0f, 1e-4f) << k;
+        }
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Maps, ChainFit, testing::Bool(), [](const auto& which) {
+    return which.param ? "SmoothnessGreenDown" : "RoughnessGreenUp";
+});
+
+TEST(ChainFitRule, SameNumbersForAnyThreads)
+{
+    const ScoredMaps maps = cloth(48);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pixels());
+    PrefilterOptions options{.rule = "picture", .quick = true};
+    const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
+    Prefiltered one = start, three = start;
+    options.threads = 1;
+    fit_chain(bench.levels(), options, one);
+    options.threads = 3;
+    fit_chain(bench.levels(), options, three);
+    bool moved = false;
+    for (std::size_t k = 1; k < one.roughness.size(); ++k) {
+        EXPECT_EQ(one.roughness[k].pixels, three.roughness[k].pixels);
+        EXPECT_EQ(one.normal[k].pixels, three.normal[k].pixels);
+        moved |= one.normal[k].pixels != start.normal[k].pixels;
+    }
+    EXPECT_TRUE(moved);
+}
+
+TEST(ChainFitRule, FullQualityHoldsStillerThanQuick)
+{
+    const ScoredMaps maps = cloth(96);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pixels());
+    const auto flicker = [&](bool quick) {
+        double sum = 0.0;
+        for (const PictureScore& s : bench.score(
+                 prefilter_raw(maps.normal, maps.roughness, {.rule = "picture", .quick = quick})))
+            sum += s.flicker;
+        return sum;
+    };
+    EXPECT_LT(flicker(false), 0.97 * flicker(true));
+}
+
+// Where normals are not written with it.
+TEST(ChainFitRule, RoughnessAloneKeepsTheNormals)
+{
+    const ScoredMaps maps = cloth(48);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pixels());
+    PrefilterOptions options{.rule = "picture", .joint = false, .quick = true};
+    const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
+    Prefiltered fitted = start;
+    fit_chain(bench.levels(), options, fitted);
+    bool moved = false;
+    for (std::size_t k = 1; k < start.normal.size(); ++k) {
+        EXPECT_EQ(fitted.normal[k].pixels, start.normal[k].pixels) << k;
+        moved |= fitted.roughness[k].pixels != start.roughness[k].pixels;
+    }
+    EXPECT_TRUE(moved);
+}
+
+}  // namespace
+}  // namespace petrichor::texproc

@@ -1,0 +1,83 @@
+// The inner loops of chain_fit.h: eight lights at once. Built twice, for plain x86-64 and for AVX2;
+// both do the same operations on the same eight lanes without fused rounding, so the bits are the
+// same.
+#ifndef PETRICHOR_TEXPROC_PREFILTER_DETAIL_CHAIN_FIT_KERNEL_H
+#define PETRICHOR_TEXPROC_PREFILTER_DETAIL_CHAIN_FIT_KERNEL_H
+
+#include <cstdint>
+
+namespace petrichor::texproc::detail {
+
+inline constexpr int kFitLights = 8;
+inline constexpr int kFitFrames = 2;  // of a pixel: two places that it sees one after the other
+
+/// An eye far away and the lights that it is tried with. Paint and metal as in lit_floor.h.
+struct FitLights {
+    float eye[3];
+    float lx[kFitLights], ly[kFitLights], lz[kFitLights];
+    float hx[kFitLights], hy[kFitLights], hz[kFitLights];  ///< half-vectors
+    float fresnel[kFitLights];
+    float albedo[kFitLights];  ///< of diffuse light, with what the highlight leaves of it, over pi
+    float alpha2[kFitLights];  ///< of the light, squared
+};
+
+/// What the channel of a roughness map means.
+struct FitMeaning {
+    bool smoothness = false, alpha = false;
+};
+
+/// A level while it is fitted: normal, roughness as stored, share of the base colour; and how the
+/// error changes with normal and roughness.
+struct FitTexel {
+    float n[3], stored, share, none[3];
+};
+struct FitSlope {
+    float n[3], stored;
+};
+struct FitLevel {
+    int width, height;
+    const FitTexel* texels;
+    FitSlope* slopes;  ///< null: not fitted
+};
+
+/// A way in which pixels see the map: one eye, one size of a pixel.
+struct FitView {
+    FitLights lights;
+    float exposure[kFitLights];
+    float weight[kFitLights];   ///< of squared errors
+    float flicker[kFitLights];  ///< of the squares of what differs between the moments of a pixel
+    int taps;
+    float step_u,
+        step_v;   ///< from one sample of the filter to the next, of the map's width and height
+    float share;  ///< of the coarser level
+};
+
+/// One pixel at one moment: its middle, 0..1 of the map, and what a display would show, 0..65535
+/// for 0..1.
+struct FitPixel {
+    float u, v;
+    std::uint16_t shown[kFitLights];
+};
+
+struct ChainFitKernel {
+    /// Mean radiance of `count` texels towards the eye: normals, perceptual roughness; share 1.
+    void (*mean_light)(const FitLights& lights, const float* nx, const float* ny, const float* nz,
+                       const float* p, int count, float* out);
+    /// What the filter and one shading make of the pixels, as shown, without clipping or root:
+    /// radiance times exposure. out: kFitLights a pixel.
+    void (*seen)(const FitView& view, const FitMeaning& meaning, const FitLevel& fine,
+                 const FitLevel& coarse, const FitPixel* pixels, int count, float* out);
+    /// Adds to the slopes of both levels how the error changes with their texels, by both weights.
+    /// count: a multiple of kFitFrames.
+    void (*add_slopes)(const FitView& view, const FitMeaning& meaning, const FitLevel& fine,
+                       const FitLevel& coarse, const FitPixel* pixels, int count);
+};
+
+/// The kernel for this processor.
+const ChainFitKernel& chain_fit_kernel();
+extern const ChainFitKernel kChainFitKernelBase;
+extern const ChainFitKernel kChainFitKernelAvx2;
+
+}  // namespace petrichor::texproc::detail
+
+#endif

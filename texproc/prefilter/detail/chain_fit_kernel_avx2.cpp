@@ -1,0 +1,7 @@
+#include "texproc/prefilter/detail/chain_fit_kernel.inc"
+
+namespace petrichor::texproc::detail {
+
+const ChainFitKernel kChainFitKernelAvx2{mean_light, seen, add_slopes};
+
+}  // namespace petrichor::texproc::detail
