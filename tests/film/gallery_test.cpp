@@ -137,6 +137,63 @@ TEST_F(Gallery, EverySurfaceOfOnesOwnIsSeen)
     }
 }
 
+// The three fractals of the example stand in every variant of it, take snow, and the bulb's power shrinks over the film.
+TEST_F(Gallery, FractalsTakeTheWeather)
+{
+    Scenario scenario = parse_scenario(
+        with(read_example("data/scenarios/fractals.toml"), "[output]\n",
+             "[output]\nwidth = 160\nheight = 90\nsamples = 1\naovs = [\"material\", \"snow\", \"film\"]\n"),
+        "s.toml");
+    scenario.folder = fs::path(PETRICHOR_SOURCE_DIR) / "data/scenarios";
+    Sequence sequence = make_sequence(std::move(scenario));
+    load_sequence_scene(sequence, 2);
+    ASSERT_EQ(sequence.scene.shapes.size(), 3u);
+    RenderRequest request;
+    RenderReport report;
+    gpu::Renderer own = sequence_renderer(sequence, request, report);
+    const auto shot = [&](int frame, const char* variant) {
+        return own.render(frame_at(sequence, {frame, variant, ""}).frame);
+    };
+    // Pixels of a shape, and the mean of a label over them.
+    const auto seen = [&](const gpu::RenderResult& r, std::size_t shape, const char* label) {
+        int pixels = 0;
+        float sum = 0.0f;
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                if (gpu::aov(r, "material", x, y) != static_cast<float>(sequence.scene.shapes[shape].material)) continue;
+                ++pixels;
+                sum += gpu::aov(r, label, x, y);
+            }
+        }
+        return std::make_pair(pixels, pixels > 0 ? sum / static_cast<float>(pixels) : 0.0f);
+    };
+    const gpu::RenderResult dry = shot(0, "dry"), rain = shot(0, "rain"), snow = shot(0, "snow");
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto [pixels, none] = seen(dry, i, "snow");
+        std::printf("  %s: %d pixels, snow %.2f, film %.2f\n", sequence.scene.shapes[i].name.c_str(), pixels,
+                    static_cast<double>(seen(snow, i, "snow").second), static_cast<double>(seen(rain, i, "film").second));
+        EXPECT_GT(pixels, 150);
+        EXPECT_LT(none, 0.02f);
+        EXPECT_EQ(seen(rain, i, "film").first, pixels);
+        EXPECT_GT(seen(snow, i, "snow").first, pixels / 2) << "snow on the ground reaches up to it";
+        EXPECT_GT(seen(snow, i, "snow").second, 0.05f);
+        EXPECT_LT(seen(snow, i, "snow").second, 0.9f) << "not from below";
+        EXPECT_GT(seen(rain, i, "film").second, 0.05f);
+    }
+    const gpu::RenderResult late = shot(23, "dry");
+    int bulb = 0, sponge = 0;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const float before = gpu::aov(dry, "material", x, y), after = gpu::aov(late, "material", x, y);
+            const auto of = [&](std::size_t shape) { return static_cast<float>(sequence.scene.shapes[shape].material); };
+            bulb += before != after && (before == of(0) || after == of(0));
+            sponge += before != after && (before == of(1) || after == of(1)) && before != of(0) && after != of(0);
+        }
+    }
+    EXPECT_GT(bulb, 100) << "its form changes";
+    EXPECT_EQ(sponge, 0) << "what rests does not";
+}
+
 // Image effects beside off: occlusion takes skylight where balls and plinths stand, nowhere adds any, and leaves the
 // middle of the wall alone.
 TEST_F(Gallery, OcclusionDarkensWhereThingsMeet)
