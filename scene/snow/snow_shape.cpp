@@ -29,7 +29,13 @@ float rounded(float s)
 constexpr float kBankSlope = 1.428f;
 constexpr float kBank = 0.7829f;      // sqrt(2 kBankSlope (1 - pi / 4))
 constexpr float kAtRim_m = 1.0e-3f;
-constexpr float kIntoSnow_m = 0.03f;  // banks end so deep in the snow at their foot
+constexpr float kIntoSnow_m = 0.045f; // banks end so deep in the snow at their foot
+
+// Deep snow forgets the stones below it.
+float filled_m(const SnowCaps::Point& p, float thickness_m)
+{
+    return p.fill_m * shared::smooth_edge(0.01f, 0.06f, thickness_m);
+}
 
 // How far in a cap is rounded off.
 float width_m(const SnowCaps::Point& p, float deep_m)
@@ -69,7 +75,8 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const SnowCaps::Point& p = caps.points[i];
         fallen[i] = drawn_snow_m(depth_m[i]) * p.uneven * p.share;
         const float held = lesser(std::min(fallen[i], kMostOverWidth * p.support_m), p.most_m);
-        top[i] = p.base_m.y + held * rounded(p.edge_m / width_m(p, held));
+        const float thickness = held * rounded(p.edge_m / width_m(p, held));
+        top[i] = p.base_m.y + thickness + filled_m(p, thickness);
     }
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
@@ -82,11 +89,11 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         float bank = 0.0f;
         if (p.beyond != SnowCaps::kNone && p.above != SnowCaps::kNone) {
             const float shed = fallen[p.above];
-            bank = (1.0f - shared::smooth_edge(0.6f * kBank * shed, kBank * shed, step)) *
+            bank = (1.0f - shared::smooth_edge(0.35f * kBank * shed, kBank * shed, step)) *
                    shared::smooth_edge(0.01f, 0.03f, std::min(shed, fallen[p.beyond]));
         }
         const bool rim = p.edge_m < kAtRim_m;
-        const float deep = rim && bank > 0.0f ? std::max(held, bank * fallen[p.above]) : held;
+        const float deep = bank > 0.0f && p.edge_m < fallen[p.above] ? std::max(held, bank * fallen[p.above]) : held;
         const float width = width_m(p, held);
         const float s = p.edge_m / width;
         const float slot = std::clamp(2.0f * held / (kClosed * p.gap_m) - 1.0f, 0.0f, 1.0f);
@@ -99,7 +106,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const float thickness = held * (round_low + lost * (1.0f - round_low)) * (round + kept * (1.0f - round)) * (round_slot + slot * (1.0f - round_slot));
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
-        at.y += thickness - sunk + p.fill_m * shared::smooth_edge(0.01f, 0.06f, thickness);
+        at.y += thickness - sunk + filled_m(p, thickness);
         const float bridged = p.slot_m < 1.0e-3f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;

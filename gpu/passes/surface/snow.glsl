@@ -106,13 +106,27 @@ struct SnowRelief {
     float smoothness;
 };
 
+// Slopes of its relief, along x and z. Of wide ground half of their variance is that of a second reading, turned as
+// place_across: of one alone a field of snow showed the lattice of its map.
+vec3 coarse_snow(SurfaceInput at, vec2 first)
+{
+    const float strength = material.snow_normal_strength * frame.look.snow_strength.x;
+    vec3 coarse = unpack_normal(first, strength);
+    if ((BESIDES & BESIDES_WIDE_GROUND) == 0u || (SNOW & SNOW_LOCAL) != 0u) return coarse;
+    const float tiling = frame.look.snow_tiling[kSnowRelief];
+    const vec2 there = textureGrad(snow_map, place_across(at.position.xz * tiling), place_across(at.position_dx.xz * tiling),
+                                   place_across(at.position_dy.xz * tiling)).xy;
+    const vec3 other = unpack_normal(there, strength);
+    const vec2 turned = vec2(0.76604444 * other.x + 0.64278761 * other.y, 0.76604444 * other.y - 0.64278761 * other.x);
+    return normalize(vec3(0.70710678 * (coarse.xy + turned), 0.5 * (coarse.z + other.z)));
+}
+
 // A snow cover has its own, softer relief over that of the ground. smoothed: world.
 SnowRelief snow_relief(SurfaceInput at, TangentFrame f, float amount, vec3 smoothed, float fade)
 {
     const vec4 snow = snow_map_at(at, kSnowRelief);
     const vec2 detail_xy = snow_map_at(at, kSnowDetail).xy;
-    const vec3 coarse =
-        unpack_normal(snow.xy, material.snow_normal_strength * frame.look.snow_strength.x);
+    const vec3 coarse = coarse_snow(at, snow.xy);
     const vec3 detail = unpack_normal(
         detail_xy, material.snow_detail_strength * frame.look.snow_strength.y * fade);
     SnowRelief relief;

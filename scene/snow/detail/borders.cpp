@@ -19,6 +19,7 @@ constexpr float kStepOfSize = 0.02f;  // .. of a small model, of its size: its s
 constexpr float kLowStep = 0.25f;  // of that step: lower ones are joints
 
 constexpr float kWidestGap_m = 0.14f;
+constexpr float kBevel_m = 0.03f;
 constexpr float kOver_m = 0.12f;    // rays start so high
 
 float step_m(const Tracer& tracer)
@@ -111,7 +112,8 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
             Border piece{at(f), at(f + 1.0f), out};
             const Beyond there = beyond(tracer, middle, out);
             if (there != Beyond::Wall) piece.drop_m = drop_beyond_m(tracer, middle, out);
-            if (there == Beyond::Nothing) piece.gap_m = gap_beyond_m(tracer, middle, out);
+            // The bevelled corner of a block looks over the end of the next: that is no slot.
+            if (there == Beyond::Nothing && glm::length(along) > kBevel_m) piece.gap_m = gap_beyond_m(tracer, middle, out);
             auto& list = there != Beyond::Nothing ? borders.closed
                          : piece.gap_m < 1.0f     ? borders.slots
                                                   : borders.open;
