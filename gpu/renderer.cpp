@@ -109,6 +109,10 @@ std::vector<SampleRange> sample_ranges(const Frame& frame, const GpuScene& scene
 
 }  // namespace
 
+// Of how many pictures, the small ones that are metered too, pipelines are kept. A film through weather asks for others all
+// the time, and a CPU's driver takes 4 MiB for each.
+constexpr std::uint64_t kPicturesKept = 8;
+
 // Images of one frame size; they die before their memory.
 struct TargetSet {
     explicit TargetSet(const Device& device) : arena(std::make_unique<MemoryArena>(device)) {}
@@ -513,6 +517,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         for (const PassTime& pass : graph.execute(device, pipelines, descriptors))
             result.passes.push_back(pass);
     }
+    pipelines.end_picture(kPicturesKept);
     result.width = frame.settings.width;
     result.height = frame.settings.height;
     const auto pixels =

@@ -206,6 +206,12 @@ void PipelineCache::add_shader(const std::string& name, std::vector<std::uint32_
     std::erase_if(pipelines_, [&](const auto& entry) { return entry.first.rfind(name, 0) == 0; });
 }
 
+void PipelineCache::end_picture(std::uint64_t kept)
+{
+    ++picture_;
+    std::erase_if(pipelines_, [&](const auto& entry) { return entry.second.asked_by + kept < picture_; });
+}
+
 std::span<const std::uint32_t> PipelineCache::code(const std::string& shader) const
 {
     const auto added = added_.find(shader);
@@ -332,7 +338,9 @@ const Pipeline& PipelineCache::compute(const std::string& shader,
                                        const std::vector<BindingTypes>& sets)
 {
     const std::string key = key_of(shader, specialization);
-    auto& slot = pipelines_[key];
+    Entry& entry = pipelines_[key];
+    entry.asked_by = picture_;
+    std::unique_ptr<Pipeline>& slot = entry.pipeline;
     if (slot) return *slot;
     auto made = ahead_ ? ahead_->take(key) : nullptr;
     if (!made) made = make_compute({shader, specialization, sets}, layout(sets));
@@ -348,7 +356,9 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     key += "|" + std::to_string(desc.depth) + "|" + std::to_string(desc.color_write) +
            std::to_string(desc.depth_equal) + std::to_string(desc.over) +
            std::to_string(desc.over_all);
-    auto& slot = pipelines_[key];
+    Entry& entry = pipelines_[key];
+    entry.asked_by = picture_;
+    std::unique_ptr<Pipeline>& slot = entry.pipeline;
     if (slot) return *slot;
     auto made = std::make_unique<Pipeline>();
     const Stage vertex(*device_, VK_SHADER_STAGE_VERTEX_BIT, desc.vertex, code(desc.vertex),

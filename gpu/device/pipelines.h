@@ -91,6 +91,10 @@ public:
     const Pipeline& graphics(const GraphicsDesc& desc);
     /// Makes SPIR-V known by a name; the same name again replaces it and its pipelines.
     void add_shader(const std::string& name, std::vector<std::uint32_t> code);
+    /// The picture that asked for pipelines is done: those that none of the last `kept` asked for are given up. Nothing
+    /// that was recorded with one may still run.
+    void end_picture(std::uint64_t kept);
+    std::size_t size() const { return pipelines_.size(); }
     VkDescriptorSetLayout set_layout(const BindingTypes& types);
 
 private:
@@ -104,7 +108,12 @@ private:
     std::map<BindingTypes, SetLayoutHandle> set_layouts_;
     std::map<std::vector<BindingTypes>, PipelineLayoutHandle> layouts_;
     std::map<std::string, std::vector<std::uint32_t>> added_;
-    std::map<std::string, std::unique_ptr<Pipeline>> pipelines_;
+    struct Entry {
+        std::unique_ptr<Pipeline> pipeline;
+        std::uint64_t asked_by = 0;  // the last picture
+    };
+    std::map<std::string, Entry> pipelines_;
+    std::uint64_t picture_ = 0;
     std::unique_ptr<Ahead> ahead_;
 };
 

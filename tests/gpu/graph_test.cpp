@@ -1,6 +1,7 @@
 // The graph on a device, with synchronization validation: what bindings and attachments declare is
 // enough, and a declaration that lies is caught.
 #include "gpu/device/graph.h"
+#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/sky/scattered_again.h"
 
 #include "tests/gpu/gpu_fixture.h"
@@ -206,6 +207,32 @@ TEST_F(GraphTest, PipelinesAreKeptByContent)
     EXPECT_EQ(&one, &pipelines->compute("formula_probe.comp", {}, {types}));
     EXPECT_NE(&one, &pipelines->compute("formula_probe.comp", {{7, 1}}, {types}));
     EXPECT_THROW(pipelines->compute("no_such_shader.comp", {}, {types}), std::logic_error);
+}
+
+TEST_F(GraphTest, PipelinesThatNoPictureAsksForAreGivenUp)
+{
+    const auto from = numbers("from");
+    const auto to = numbers("to");
+    const ComputePass pass = probe(texels(*from), storage_buffer(*to));
+    const auto draw = [&](bool with_lists) {
+        FrameGraph graph;
+        graph.add(pass);
+        if (with_lists) add_list_groups(graph, "lists", *from, *to);
+        graph.execute(*device, *pipelines, *descriptors);
+        descriptors->reset();
+        pipelines->end_picture(2);
+    };
+    draw(true);
+    EXPECT_EQ(pipelines->size(), 2u);
+    draw(false);
+    EXPECT_EQ(pipelines->size(), 2u);
+    draw(false);
+    EXPECT_EQ(pipelines->size(), 1u);
+    draw(true);  // made again
+    EXPECT_EQ(pipelines->size(), 2u);
+    for (int i = 0; i < 5; ++i) draw(true);
+    EXPECT_EQ(pipelines->size(), 2u);
+    expect_silence();
 }
 
 }  // namespace
