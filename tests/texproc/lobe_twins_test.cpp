@@ -1,5 +1,5 @@
 // GGX stands three times: for shaders and renderers in formulas/light/brdf.h, in lanes of eight for
-// the fit, in doubles for the yardstick. Here the three are one.
+// the fit, in doubles for the yardstick. Here the three are one (a fourth, chain_fit_kernel.inc, in chain_fit_test.cpp).
 #include <gtest/gtest.h>
 
 #include <cmath>

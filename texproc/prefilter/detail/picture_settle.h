@@ -9,9 +9,10 @@ namespace petrichor::texproc::detail {
 /// The last look of the rule picture: texels were fitted one by one, a pixel is a blend of many and
 /// of two levels. Renders the material small (design_pictures()) and keeps that share of what was
 /// fitted, from none to all, with which the pictures are nearest to the truth and none is farther
-/// from it than with plain mips, where that can be had.
+/// from it than with plain mips, where that can be had. Full quality then fits normals and roughness of small
+/// levels to pixels (chain_fit.h), and keeps that share of it which the same pictures like best.
 ///
-///   chain  its roughness is changed; base_share counts as part of the pictures
+///   chain  its roughness and base_share are changed, its normals in full quality where options.joint says so
 void settle_picture(const MapSurface& surface, const PrefilterOptions& options, Prefiltered& chain);
 
 }  // namespace petrichor::texproc::detail
