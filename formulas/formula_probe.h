@@ -502,7 +502,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float aside = length(cross(from, along));
         const float met = abs(aside - 1.0f) > 0.05f ? shape_met(ball, from, along, 0.0f, 9.0f, vec2(0.001f, 0.001f)) : 0.0f;
         const vec3 n = shape_normal(ball, from, 0.5f);
-        return vec4(min(abs(ends.x), 9.0f), min(abs(ends.y), 9.0f), met, n.x + 2.0f * n.y);
+        const MarchedShape sponge = MarchedShape(SHAPE_MENGER, 2, 0.0f, vec3(1.0f));
+        const float open = shape_open(sponge, from * 0.3f, n, 0.01f);
+        return vec4(min(abs(ends.x), 9.0f), min(abs(ends.y), 9.0f), met, n.x + 2.0f * n.y + open);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

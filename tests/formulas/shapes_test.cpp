@@ -396,5 +396,42 @@ TEST(Shapes, FacesOfTheSpongeAreFlat)
     EXPECT_GT(flat, 8000);
 }
 
+TEST(Shapes, AreOpenWhereTheyBulgeAndClosedInHoles)
+{
+    Random random(12);
+    const MarchedShape ball{SHAPE_SPHERE, 0, 0.0f, vec3(1.0f)};
+    const MarchedShape sponge{SHAPE_MENGER, 2, 0.0f, vec3(1.0f)};
+    const MarchedShape ring{SHAPE_TORUS, 0, 0.0f, vec3(1.0f, 0.25f, 1.0f)};
+    for (int i = 0; i < 500; ++i) {
+        const glm::vec3 n(unit(random));
+        EXPECT_NEAR(shape_open(ball, n, n, 1e-3f), 1.0f, 1e-4f);
+        const float any = shape_open(sponge, glm::vec3(in_cube(random, 1.0)), n, 1e-3f);
+        EXPECT_GE(any, 0.0f);
+        EXPECT_LE(any, 1.0f);
+    }
+    // Its outer face, away from edges; the floor of the tunnel through it; a corner of that.
+    const float face = shape_open(sponge, {0.0f, 0.5f, 1.0f}, {0, 0, 1}, 1e-3f);
+    const float tunnel = shape_open(sponge, {0.0f, -1.0f / 3.0f, 0.7f}, {0, 1, 0}, 1e-3f);
+    const float corner = shape_open(sponge, {0.32f, -1.0f / 3.0f, 0.7f}, {0, 1, 0}, 1e-3f);
+    EXPECT_NEAR(face, 1.0f, 1e-3f);
+    EXPECT_LT(tunnel, 0.9f);
+    EXPECT_LT(corner, 0.6f * tunnel);
+    EXPECT_NEAR(shape_open(ring, {1.0f, 0.0f, 0.0f}, {1, 0, 0}, 1e-3f), 1.0f, 1e-4f);
+    EXPECT_LE(shape_open(ring, {0.5f, 0.0f, 0.0f}, {-1, 0, 0}, 1e-3f), 1.0f);
+}
+
+TEST(Shapes, APointGoesThroughItsCode)
+{
+    for (float x = -1.0f; x <= 1.0f; x += 0.11f) {
+        for (float open = 0.0f; open <= 1.0f; open += 0.13f) {
+            const vec3 back = shape_decode(shape_code({x, -x * 0.5f}, open));
+            EXPECT_NEAR(back.x, x, 1.3e-4f);
+            EXPECT_NEAR(back.y, -x * 0.5f, 1.3e-4f);
+            EXPECT_NEAR(back.z, open, 0.5f / 63.0f + 1e-5f);
+        }
+    }
+    EXPECT_EQ(shape_decode(shape_code({1.0f, -1.0f}, 1.0f)), vec3(1.0f, -1.0f, 1.0f));
+}
+
 }  // namespace
 }  // namespace petrichor::shared

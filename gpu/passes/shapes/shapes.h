@@ -33,7 +33,7 @@ void draw_shape_depths(PassContext& pass, const GpuScene& scene, const ShapeView
 
 // Marches to the shapes that a picture sees, over what the visibility buffer holds.
 //
-//   edits    ids (the normal in the shape's space stands where others have their triangle), depth
+//   edits    ids (normal and openness, shape_code, stand where others have their triangle), depth
 void add_shapes(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
                 const shared::FrameConstants& c);
 

@@ -3,6 +3,8 @@
 #ifndef PETRICHOR_SHAPE_POINT_GLSL
 #define PETRICHOR_SHAPE_POINT_GLSL
 
+#include "formulas/geometry/shapes.h"
+
 vec3 shape_to_world(int draw, vec3 v)
 {
     return vec3(dot(row_of(draw, 3).xyz, v), dot(row_of(draw, 4).xyz, v), dot(row_of(draw, 5).xyz, v));
@@ -11,7 +13,7 @@ vec3 shape_to_world(int draw, vec3 v)
 // No farther round than edge-on: a normal is that of more than the point that is seen.
 vec3 shape_normal_at(int draw, uint code, vec3 view)
 {
-    const vec3 n = normalize(shape_to_world(draw, octahedral_decode(unpackSnorm2x16(code))));
+    const vec3 n = normalize(shape_to_world(draw, octahedral_decode(shape_decode(code).xy)));
     const float away = dot(n, view);
     return away > 0.0 ? normalize(n - away * view) : n;
 }

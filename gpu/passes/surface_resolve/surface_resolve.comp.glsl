@@ -168,6 +168,7 @@ void main()
     if (SHAPES != 0u && more.z != 0u) shape_point(s, draw, id.y);
 
     SurfaceData data = evaluate_surface(s);
+    if (SHAPES != 0u && more.z != 0u) data.texel.occlusion *= shape_decode(id.y).z;
     data.texel.emission = data.emission;
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
     const bool ALWAYS = true;
