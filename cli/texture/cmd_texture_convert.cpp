@@ -264,6 +264,10 @@ void run(const Arguments& a)
 {
     check(a);
     texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
+    if (const std::uint64_t images = texproc::images_of_texture(a.in); images > 1) {
+        std::cerr << "note: " << a.in << " is an array, a cube or a film of " << images
+                  << " images; the first is converted\n";
+    }
     if (!a.size.empty() || a.scale > 0.0) raw = in_size(a, raw);
     if (a.bump_slopes) {
         write_slopes(a, raw);

@@ -112,6 +112,7 @@ nlohmann::ordered_json to_json(const std::string& file, const RawImage& raw,
         json["levels"] = texture->levels.size();
         json["format"] = name_of(texture->format);
         json["srgb"] = texture->srgb;
+        json["images"] = texproc::images_of_texture(file);
     }
     if (facts.green) {
         json["green"] = {{"direction", facts.green->down ? "down" : "up"},
@@ -142,6 +143,8 @@ void print(const std::string& file, const RawImage& raw, const ImageFacts& facts
     if (texture) {
         std::printf(", %s%s, %zu levels", name_of(texture->format).c_str(),
                     texture->srgb ? " sRGB" : "", texture->levels.size());
+        const std::uint64_t images = texproc::images_of_texture(file);
+        if (images > 1) std::printf(", the first of %llu images", static_cast<unsigned long long>(images));
     }
     std::printf("\n  looks like  %s (%.0f %%)", to_text(facts.meaning).c_str(),
                 100.0 * facts.meaning_confidence);

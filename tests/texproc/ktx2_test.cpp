@@ -1,6 +1,9 @@
 #include "texproc/codecs/files/detail/ktx2.h"
 
 #include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <utility>
 
 #include "base/error.h"
 #include "tests/texproc/textures.h"
@@ -95,6 +98,30 @@ TEST_F(Ktx2, GoesThroughTheOneReader)
     EXPECT_THROW(write_mip_chain(folder / "a.dds", chain, {.zstd = 5}), Error);
     write_mip_chain(folder / "b.ktx2", chain, {.format = "bc7"});
     EXPECT_EQ(read_raw(folder / "b.ktx2").channels, 4);
+}
+
+TEST_F(Ktx2, SaysHowManyImagesAFileHolds)
+{
+    const auto chain = small_chain(8, 8, 4, PixelType::U8);
+    const auto images_of = [&](std::vector<std::byte> bytes, const char* name, std::initializer_list<std::pair<std::size_t, int>> changes) {
+        for (const auto& [at, value] : changes) bytes[at] = static_cast<std::byte>(value);
+        std::ofstream(folder / name, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        return images_of_texture(folder / name);
+    };
+    const auto ktx2 = texture_bytes(make_texture(chain, {.format = "rgba8"}), "ktx2");
+    EXPECT_EQ(images_of(ktx2, "one.ktx2", {}), 1u);
+    EXPECT_EQ(images_of(ktx2, "array_of_cubes.ktx2", {{32, 3}, {36, 6}}), 18u);
+    const auto dds = texture_bytes(make_texture(chain, {.format = "bc7"}), "dds");
+    EXPECT_EQ(images_of(dds, "one.dds", {}), 1u);
+    EXPECT_EQ(images_of(dds, "array.dds", {{140, 5}}), 5u);
+    EXPECT_EQ(images_of(dds, "cubes.dds", {{140, 2}, {136, 4}}), 12u);
+    const auto old = texture_bytes(make_texture(chain, {.format = "bc1"}), "dds");
+    if (std::memcmp(old.data() + 84, "DX10", 4) != 0) {
+        EXPECT_EQ(images_of(old, "cube.dds", {{113, 0xfe}}), 6u);
+    }
+    EXPECT_EQ(images_of({std::byte{1}}, "short", {}), 1u);
+    EXPECT_EQ(images_of_texture(folder / "gone"), 1u);
 }
 
 TEST_F(Ktx2, DamagedFilesAreErrorsNotCrashes)

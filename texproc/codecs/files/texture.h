@@ -102,6 +102,11 @@ std::vector<std::byte> texture_bytes(const MipTexture& texture, const std::strin
 /// True when write_mip_chain() knows the extension.
 bool holds_mip_chain(const std::filesystem::path& path);
 
+/// How many images a DDS or KTX2 file holds beside the levels of each: layers of an array (frames of a film) times
+/// faces of a cube; 1 for an image alone, and for all other files. What is read of it is the first. Looks at the head of
+/// the file alone; throws nothing.
+std::uint64_t images_of_texture(const std::filesystem::path& path);
+
 /// Reads a DDS or KTX2 file as it is stored, with all its levels (of the first face and layer).
 /// Throws Error for a missing, damaged, truncated, unsupported or too large file.
 MipTexture read_texture(const std::filesystem::path& path, const ReadOptions& options = {});

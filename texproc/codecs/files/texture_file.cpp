@@ -1,13 +1,17 @@
 // Textures with mip levels to and from files.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cctype>
 #include <cstring>
+#include <fstream>
 
 #include "base/error.h"
 #include "base/input_file.h"
 #include "texproc/codecs/files/detail/dds.h"
 #include "texproc/codecs/files/detail/exr_mips.h"
 #include "texproc/codecs/files/detail/ktx2.h"
+#include "texproc/codecs/files/detail/little_endian.h"
 #include "texproc/codecs/files/detail/texture_codes.h"
 #include "texproc/codecs/files/detail/texture_shape.h"
 #include "texproc/codecs/files/texture.h"
@@ -162,6 +166,22 @@ std::vector<std::byte> texture_bytes(const MipTexture& texture, const std::strin
     std::vector<std::byte> bytes = detail::dds_header(texture, texture.levels.size());
     for (const auto& level : in_file_order(texture).levels) bytes.insert(bytes.end(), level.begin(), level.end());
     return bytes;
+}
+
+std::uint64_t images_of_texture(const fs::path& path)
+{
+    std::array<char, 148> bytes{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(bytes.data(), bytes.size());
+    const std::span<const std::byte> head = std::as_bytes(std::span(bytes));
+    const auto word = [&](std::size_t at) { return std::uint64_t{detail::read_u32(head, at)}; };
+    if (std::memcmp(bytes.data() + 1, "KTX 20", 6) == 0)
+        return std::max<std::uint64_t>(1, word(32)) * std::max<std::uint64_t>(1, word(36));
+    if (std::memcmp(bytes.data(), "DDS ", 4) != 0) return 1;
+    constexpr std::uint64_t kFaces = 0xfc00, kCube = 0x200, kCubeOfDx10 = 4;
+    if (std::memcmp(bytes.data() + 84, "DX10", 4) == 0)
+        return std::max<std::uint64_t>(1, word(140)) * ((word(136) & kCubeOfDx10) != 0 ? 6u : 1u);
+    return (word(112) & kCube) != 0 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::popcount(word(112) & kFaces))) : 1;
 }
 
 MipTexture read_texture(const fs::path& path, const ReadOptions& options)
