@@ -67,7 +67,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},
                      {LIGHTING_RADIANCE, storage(*targets.radiance)},
                      {LIGHTING_MIRROR_WEIGHT, storage(*targets.mirror_weight)},
-                     {LIGHTING_PROBES, uniform(probes.reach(), 0, kMostProbes * sizeof(shared::ProbeReach))},
+                     {LIGHTING_PROBES, uniform(probes.spread(), 0, kMostProbes * sizeof(shared::ProbeSpread))},
                      {LIGHTING_PROBE_BANDS, texels(probes.bands())},
                      {LIGHTING_PARTS, storage(*variant.parts)},
                      {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)},

@@ -60,7 +60,7 @@
 #define LIGHTING_PIXELS 22   // gpu/frame/pixel_list_io.h
 #define LIGHTING_PARTS 23
 #define LIGHTING_MIRROR_LIST 24  // gpu/frame/pixel_list_io.h
-#define LIGHTING_PROBES 25       // ProbeReach of each
+#define LIGHTING_PROBES 25       // ProbeSpread of each
 #define LIGHTING_PROBE_BANDS 26  // kProbeBandTexels of each
 #define LIGHTING_GBUFFER 27      // depth, then the targets
 

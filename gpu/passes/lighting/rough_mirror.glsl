@@ -23,24 +23,33 @@ vec4 probed_lobe(ProbesHere s, vec3 d, float alpha)
     return vec4(max(sum.rgb, vec3(0.0)), clamp(sum.a, 0.0, 1.0));
 }
 
-// Two probes, and how much each counts. Read by number: two times five loads of four words are cheaper for a CPU than what no
-// address depends on, 36 numbers of each probe there is.
+// Two probes, and how much each counts. Of more than two, two times five loads of four words by number are cheaper for
+// a CPU than 36 numbers of each, though those lie at the same address for all.
 void mix_bands(inout ProbesHere s, ivec2 probe, vec2 counts)
 {
+    if (PROBES <= 2u) {
+        const vec2 ordered = probe.x == 0 ? counts : counts.yx;
+#define BAND(K)                                   \
+    s.bands[K] = probes[0].bands[K] * ordered.x; \
+    if (PROBES > 1u) s.bands[K] += probes[1].bands[K] * ordered.y;
+        BAND(0) BAND(1) BAND(2) BAND(3) BAND(4) BAND(5) BAND(6) BAND(7) BAND(8)
+#undef BAND
+        return;
+    }
     const ivec2 first = probe * kProbeBandTexels;
     const uvec4 last_x = texelFetch(probe_bands, first.x + kProbeBandTexels - 1);
-    const uvec4 last_y = PROBES > 1u ? texelFetch(probe_bands, first.y + kProbeBandTexels - 1) : uvec4(0u);
+    const uvec4 last_y = texelFetch(probe_bands, first.y + kProbeBandTexels - 1);
     const vec4 scale_x = uintBitsToFloat(last_x.zw).xxxy * counts.x;
     const vec4 scale_y = uintBitsToFloat(last_y.zw).xxxy * counts.y;
 #define BAND(X, Y)                                                       \
     vec4(probe_bands_of_word(X.x), probe_bands_of_word(X.y)) * scale_x + \
         vec4(probe_bands_of_word(Y.x), probe_bands_of_word(Y.y)) * scale_y
-#define TWO_BANDS(I)                                                                    \
-    {                                                                                   \
-        const uvec4 x = texelFetch(probe_bands, first.x + I);                           \
-        const uvec4 y = PROBES > 1u ? texelFetch(probe_bands, first.y + I) : uvec4(0u); \
-        s.bands[2 * I] = BAND(x.xy, y.xy);                                              \
-        s.bands[2 * I + 1] = BAND(x.zw, y.zw);                                          \
+#define TWO_BANDS(I)                                          \
+    {                                                         \
+        const uvec4 x = texelFetch(probe_bands, first.x + I); \
+        const uvec4 y = texelFetch(probe_bands, first.y + I); \
+        s.bands[2 * I] = BAND(x.xy, y.xy);                    \
+        s.bands[2 * I + 1] = BAND(x.zw, y.zw);                \
     }
     TWO_BANDS(0) TWO_BANDS(1) TWO_BANDS(2) TWO_BANDS(3)
     s.bands[8] = BAND(last_x.xy, last_y.xy);

@@ -43,7 +43,7 @@ BandTexels band_texels(const std::array<glm::vec4, shared::kHarmonics>& bands)
         for (int c = 0; c < 3; ++c) light = std::max(light, std::abs(band[c]));
         sky = std::max(sky, std::abs(band.a));
     }
-    const float per_light = light > 0.0f ? 1.0f / light : 0.0f, per_sky = sky > 0.0f ? 1.0f / sky : 0.0f;
+    const float per_light = light > 1e-30f ? 1.0f / light : 0.0f, per_sky = sky > 1e-30f ? 1.0f / sky : 0.0f;
     BandTexels texels{};
     std::size_t word = 0;
     for (const glm::vec4& band : bands) {
@@ -65,7 +65,7 @@ ProbeTable::ProbeTable(const Device& device) : device_(&device)
 
 void ProbeTable::make_buffers(std::size_t probes)
 {
-    for (auto* buffer : {&rows_, &light_, &reach_, &bands_}) *buffer = nullptr;
+    for (auto* buffer : {&rows_, &light_, &spread_, &bands_}) *buffer = nullptr;
     arena_ = std::make_unique<MemoryArena>(*device_);
     const auto texels = [&](const char* name, std::size_t count) {
         return arena_->buffer({.name = name,
@@ -78,10 +78,10 @@ void ProbeTable::make_buffers(std::size_t probes)
     light_ = texels("reflection_probe_light",
                     probes * static_cast<std::size_t>(
                                  shared::reflection_probe_offset(shared::kProbeLevels)));
-    reach_ = arena_->buffer({.name = "reflection_probe_reach",
-                             .size = kMostProbes * sizeof(shared::ProbeReach),
-                             .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                             .host = true});
+    spread_ = arena_->buffer({.name = "reflection_probe_spread",
+                              .size = kMostProbes * sizeof(shared::ProbeSpread),
+                              .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                              .host = true});
     bands_ = arena_->buffer({.name = "reflection_probe_bands",
                              .size = std::max<std::size_t>(probes, 1) * sizeof(BandTexels),
                              .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
@@ -110,10 +110,12 @@ void ProbeTable::relight(const PatchLights& patches)
             glm::vec4(p.position_m, std::pow(1000.0f, p.importance)),
             glm::vec4(p.low_m, p.blend_m), glm::vec4(p.high_m, sky_above(light))};
         std::memcpy(rows_->mapped + i * sizeof rows, rows, sizeof rows);
-        const shared::ProbeReach reach{rows[0], rows[1], rows[2]};
-        std::memcpy(reach_->mapped + i * sizeof reach, &reach, sizeof reach);
-        const BandTexels bands = band_texels(scene::probe_bands(light));
-        std::memcpy(bands_->mapped + i * sizeof bands, &bands, sizeof bands);
+        shared::ProbeSpread spread{rows[0], rows[1], rows[2], {}};
+        const auto bands = scene::probe_bands(light);
+        std::copy(bands.begin(), bands.end(), spread.bands);
+        std::memcpy(spread_->mapped + i * sizeof spread, &spread, sizeof spread);
+        const BandTexels words = band_texels(bands);
+        std::memcpy(bands_->mapped + i * sizeof words, &words, sizeof words);
     });
     if (wanted > 0) {
         relight_ms_ = std::chrono::duration<double, std::milli>(

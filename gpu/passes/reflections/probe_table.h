@@ -25,7 +25,7 @@ public:
 
     GpuBuffer& rows() const { return *rows_; }
     GpuBuffer& light() const { return *light_; }
-    GpuBuffer& reach() const { return *reach_; }  ///< kMostProbes of ProbeReach
+    GpuBuffer& spread() const { return *spread_; }  ///< kMostProbes of ProbeSpread
     GpuBuffer& bands() const { return *bands_; }  ///< kProbeBandTexels a probe
 
 private:
@@ -33,7 +33,7 @@ private:
 
     const Device* device_;
     std::unique_ptr<MemoryArena> arena_;
-    std::unique_ptr<GpuBuffer> rows_, light_, reach_, bands_;
+    std::unique_ptr<GpuBuffer> rows_, light_, spread_, bands_;
     std::uint64_t loads_ = 0;  // of the patches that they stand among
     std::string lit_by_;
     std::uint32_t count_ = 0;
