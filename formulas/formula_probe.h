@@ -364,8 +364,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float share = reflection_probe_share(p, low, high, 2.0f * c.z);
         const vec2 blend = reflection_probe_blend(vec3(2.0f, 1.0f + c.w, 1.0f));
         const vec3 rough = rough_mirror_direction(probe_direction(b.x, b.y), probe_direction(c.x, c.y), a.w);
-        return vec4(way.x + way.y, way.z + rough.x, reflection_probe_weight(share, 1.0f + a.w, p),
-                    blend.y + ggx_band(int(8.999f * b.z), c.w));
+        const vec2 bands = probe_bands_of_word(probe_band_word(2.0f * vec2(a.x, c.z) - vec2(1.0f))) * (1.0f / kProbeBandOne);
+        return vec4(way.x + way.y, way.z + rough.x, reflection_probe_weight(share, 1.0f + a.w, p) + bands.x,
+                    blend.y + ggx_band(int(8.999f * b.z), c.w) + bands.y);
     }
     if (kind == 43) {
         const vec3 n = probe_direction(a.x, a.y);

@@ -78,11 +78,31 @@ SHARED_FN float distance_to_wall(float from, float ray, float low, float high)
 
 // Rougher surfaces than levels are for see a probe by its harmonics, not turned to the walls of its box.
 struct ProbeSpread {
-    vec4 centre;           // boost
-    vec4 low;              // blend
-    vec4 high;             // share of sky above
+    vec4 centre;             // boost
+    vec4 low;                // blend
+    vec4 high;               // share of sky above
     vec4 bands[kHarmonics];  // rgb: radiance of surfaces, a: share of sky
 };
+
+// The bands of a probe in words of two numbers, to be read by number: four words a texel (RGBA32UI), the last with one band
+// and, as floats, what 1 in a word of the light and of the sky is.
+SHARED_CONST int kProbeBandTexels = (kHarmonics + 1) / 2;
+
+// Two numbers of -1..1. The upper one is read with the lower one below it, to half of a 32767th all the same.
+SHARED_FN uint probe_band_word(vec2 numbers)
+{
+    const uint lower = uint(int(floor(numbers.x * 32767.0f + 0.5f))) & 65535u;
+    const float below = float(lower) * (1.0f / 65536.0f);
+    return uint(int(floor(numbers.y * 32767.0f + 0.5f - below))) << 16 | lower;
+}
+
+SHARED_CONST float kProbeBandOne = 32767.0f * 65536.0f;
+
+// .. times kProbeBandOne.
+SHARED_FN vec2 probe_bands_of_word(uint word)
+{
+    return vec2(float(int(word << 16)), float(int(word)));
+}
 
 // What a GGX lobe seen along the normal leaves of the i-th function; fitted to its integrals (0.003 of the first
 // band, 0.007 of the second). At alpha 1 it is a cosine.

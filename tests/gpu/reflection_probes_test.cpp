@@ -142,6 +142,49 @@ TEST_F(ReflectionProbesTest, RoughMetalHasTheLightOfTheSideItIsSeenTowards)
     EXPECT_NEAR(without.r, other.r, 0.05f * other.r);
 }
 
+// A long rough floor with three probes along it, alike in what they send down, not in where it comes from: high above
+// or low around. The floor mirrors what is low, so it is bright below the outer two, dark below the one between
+// them, and nowhere does it step.
+TEST_F(ReflectionProbesTest, ARoughFloorPassesFromProbeToProbeWithoutAStep)
+{
+    Hall hall;
+    hall.scene.materials[0].roughness = 0.5f;
+    const float above[] = {1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    const float around[] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0};
+    const scene::TracedProbe model = hall.patches->probes[0];
+    hall.patches->probes.clear();
+    for (const float x : {-4.0f, 0.0f, 4.0f}) {
+        scene::TracedProbe probe = model;
+        probe.place.position_m.x = x;
+        probe.picture = scene::probe_picture(1, 4, x == 0.0f ? above : around);
+        hall.patches->probes.push_back(probe);
+    }
+    renderer->load(hall.scene, {});
+    renderer->set_patches(hall.patches);
+    renderer->set_environment(constant_environment(0.0f));
+    Frame frame;
+    frame.camera = look({0, 1.5f, 5.0f}, {0, 0, 0}, 0.4f);
+    frame.sky.sun_illuminance = 0.0f;
+    frame.settings.width = 512;
+    frame.settings.height = 64;
+    frame.settings.samples = 1;
+    frame.emissive_lights = false;
+    frame.settings.ambient_occlusion = false;
+    frame.weather.visibility_m = 1e9f;
+    const RenderResult r = renderer->render(frame);
+    float most = 0.0f, least = 1e9f, step = 0.0f, before = -1.0f;
+    for (int x = 32; x < 480; ++x) {  // the floor goes on beyond
+        const glm::vec3 seen = pixel(r, x, 32);
+        const float here = seen.r + seen.g;
+        most = std::max(most, here);
+        least = std::min(least, here);
+        if (before >= 0.0f) step = std::max(step, std::abs(here - before));
+        before = here;
+    }
+    EXPECT_GT(most, 1.25f * least);
+    EXPECT_LT(step, 0.02f * most);
+}
+
 // A picture of the place stands for what would be traced, whatever the light of the frame.
 TEST_F(ReflectionProbesTest, APictureStandsInForWhatWasTraced)
 {

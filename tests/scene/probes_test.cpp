@@ -236,6 +236,18 @@ TEST(ProbeBands, AFurnaceIsOneInEveryLobe)
     }
 }
 
+TEST(ProbeBands, TwoNumbersShareAWord)
+{
+    for (int i = -64; i <= 64; ++i) {
+        for (int k = -64; k <= 64; ++k) {
+            const glm::vec2 numbers = glm::vec2(i, k) / 64.0f;
+            const glm::vec2 found = shared::probe_bands_of_word(shared::probe_band_word(numbers)) / shared::kProbeBandOne;
+            ASSERT_NEAR(found.x, numbers.x, 0.51f / 32767.0f);
+            ASSERT_NEAR(found.y, numbers.y, 0.51f / 32767.0f);
+        }
+    }
+}
+
 // A wall of another colour on each side: the sum over the lobe, ray by ray.
 TEST(ProbeBands, LobesGatherWhatTheyLookAt)
 {

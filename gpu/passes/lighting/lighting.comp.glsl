@@ -88,6 +88,7 @@ layout(binding = LIGHTING_PARTS, rgba32f) uniform image2DArray light_parts;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
 layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texels;
 layout(binding = LIGHTING_PROBES, scalar) uniform Probes { ProbeSpread probes[LIGHTING_MOST_PROBES]; };
+layout(binding = LIGHTING_PROBE_BANDS) uniform usamplerBuffer probe_bands;
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;

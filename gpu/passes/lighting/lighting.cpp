@@ -68,6 +68,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_RADIANCE, storage(*targets.radiance)},
                      {LIGHTING_MIRROR_WEIGHT, storage(*targets.mirror_weight)},
                      {LIGHTING_PROBES, uniform(probes.spread(), 0, kMostProbes * sizeof(shared::ProbeSpread))},
+                     {LIGHTING_PROBE_BANDS, texels(probes.bands())},
                      {LIGHTING_PARTS, storage(*variant.parts)},
                      {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)},
                      {LIGHTING_MIRROR_LIST, storage_buffer(*targets.mirror_list)}},

@@ -61,6 +61,7 @@
 #define LIGHTING_PARTS 23
 #define LIGHTING_MIRROR_LIST 24  // gpu/frame/pixel_list_io.h
 #define LIGHTING_PROBES 25       // ProbeSpread of each
-#define LIGHTING_GBUFFER 26      // depth, then the targets
+#define LIGHTING_PROBE_BANDS 26  // kProbeBandTexels of each
+#define LIGHTING_GBUFFER 27      // depth, then the targets
 
 #endif

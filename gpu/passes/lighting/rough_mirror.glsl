@@ -23,47 +23,65 @@ vec4 probed_lobe(ProbesHere s, vec3 d, float alpha)
     return vec4(max(sum.rgb, vec3(0.0)), clamp(sum.a, 0.0, 1.0));
 }
 
+// Two probes, and how much each counts. Of more than two, two times five loads of four words by number are cheaper for
+// a CPU than 36 numbers of each, though those lie at the same address for all.
+void mix_bands(inout ProbesHere s, ivec2 probe, vec2 counts)
+{
+    if (PROBES <= 2u) {
+        const vec2 ordered = probe.x == 0 ? counts : counts.yx;
+#define BAND(K)                                   \
+    s.bands[K] = probes[0].bands[K] * ordered.x; \
+    if (PROBES > 1u) s.bands[K] += probes[1].bands[K] * ordered.y;
+        BAND(0) BAND(1) BAND(2) BAND(3) BAND(4) BAND(5) BAND(6) BAND(7) BAND(8)
+#undef BAND
+        return;
+    }
+    const ivec2 first = probe * kProbeBandTexels;
+    const uvec4 last_x = texelFetch(probe_bands, first.x + kProbeBandTexels - 1);
+    const uvec4 last_y = texelFetch(probe_bands, first.y + kProbeBandTexels - 1);
+    const vec4 scale_x = uintBitsToFloat(last_x.zw).xxxy * counts.x;
+    const vec4 scale_y = uintBitsToFloat(last_y.zw).xxxy * counts.y;
+#define BAND(X, Y)                                                       \
+    vec4(probe_bands_of_word(X.x), probe_bands_of_word(X.y)) * scale_x + \
+        vec4(probe_bands_of_word(Y.x), probe_bands_of_word(Y.y)) * scale_y
+#define TWO_BANDS(I)                                          \
+    {                                                         \
+        const uvec4 x = texelFetch(probe_bands, first.x + I); \
+        const uvec4 y = texelFetch(probe_bands, first.y + I); \
+        s.bands[2 * I] = BAND(x.xy, y.xy);                    \
+        s.bands[2 * I + 1] = BAND(x.zw, y.zw);                \
+    }
+    TWO_BANDS(0) TWO_BANDS(1) TWO_BANDS(2) TWO_BANDS(3)
+    s.bands[8] = BAND(last_x.xy, last_y.xy);
+#undef TWO_BANDS
+#undef BAND
+}
+
 ProbesHere probes_here(LitPoint p, Ambient around)
 {
     ProbesHere s;
     s.share = 0.0;
     s.here = vec3(1.0);
     if (PROBES == 0u) return s;
-    // Shares as probes_around() has them.
-    float weights[LIGHTING_MOST_PROBES];
+    // Chosen as probes_around() does.
     vec3 heaviest = vec3(0.0);
-#define WEIGH(I)                                                                                                      \
-    if (PROBES > I) {                                                                                                 \
-        const float share =                                                                                           \
-            reflection_probe_share(p.position, probes[I].low.xyz, probes[I].high.xyz, probes[I].low.w);               \
-        const float weight = reflection_probe_weight(share, probes[I].centre.w, p.position - probes[I].centre.xyz);   \
-        weights[I] = weight;                                                                                          \
-        s.share = max(s.share, share);                                                                                \
-        const float second = min(weight, heaviest.x);                                                                 \
-        heaviest.z = max(heaviest.z, min(second, heaviest.y));                                                        \
-        heaviest.y = max(heaviest.y, second);                                                                         \
-        heaviest.x = max(heaviest.x, weight);                                                                         \
+    ivec2 chosen = ivec2(0);
+#define WEIGH(I)                                                                                                     \
+    if (PROBES > I) {                                                                                                \
+        const float share =                                                                                          \
+            reflection_probe_share(p.position, probes[I].low.xyz, probes[I].high.xyz, probes[I].low.w);              \
+        const float weight = reflection_probe_weight(share, probes[I].centre.w, p.position - probes[I].centre.xyz);  \
+        s.share = max(s.share, share);                                                                               \
+        chosen.y = weight > heaviest.x ? chosen.x : weight > heaviest.y ? int(I) : chosen.y;                         \
+        chosen.x = weight > heaviest.x ? int(I) : chosen.x;                                                          \
+        const float second = min(weight, heaviest.x);                                                                \
+        heaviest.z = max(heaviest.z, min(second, heaviest.y));                                                       \
+        heaviest.y = max(heaviest.y, second);                                                                        \
+        heaviest.x = max(heaviest.x, weight);                                                                        \
     }
     EACH_PROBE(WEIGH)
 #undef WEIGH
-    const vec2 two = reflection_probe_blend(heaviest);
-    const float scale = two.x / max(heaviest.x - 0.98 * heaviest.z, 1.0e-20);
-    for (int k = 0; k < kHarmonics; ++k) s.bands[k] = vec4(0.0);
-#define ADD(I)                                                                                                \
-    if (PROBES > I) {                                                                                         \
-        const float share = weights[I] >= heaviest.y ? max(weights[I] - 0.98 * heaviest.z, 0.0) * scale : 0.0; \
-        s.bands[0] += probes[I].bands[0] * share;                                                             \
-        s.bands[1] += probes[I].bands[1] * share;                                                             \
-        s.bands[2] += probes[I].bands[2] * share;                                                             \
-        s.bands[3] += probes[I].bands[3] * share;                                                             \
-        s.bands[4] += probes[I].bands[4] * share;                                                             \
-        s.bands[5] += probes[I].bands[5] * share;                                                             \
-        s.bands[6] += probes[I].bands[6] * share;                                                             \
-        s.bands[7] += probes[I].bands[7] * share;                                                             \
-        s.bands[8] += probes[I].bands[8] * share;                                                             \
-    }
-    EACH_PROBE(ADD)
-#undef ADD
+    mix_bands(s, chosen, reflection_probe_blend(heaviest));
     const vec4 matt = probed_lobe(s, p.normal, 1.0);
     const vec3 there = matt.rgb + sky_irradiance(p.normal) * matt.a;
     s.here = clamp(around.unhidden / max(there, vec3(1.0e-6)), vec3(0.0), vec3(2.0));

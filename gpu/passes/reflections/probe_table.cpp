@@ -1,6 +1,8 @@
 #include "gpu/passes/reflections/probe_table.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -32,6 +34,28 @@ float sky_above(const std::vector<glm::vec4>& light)
     return sky / all;
 }
 
+using BandTexels = std::array<std::uint32_t, 4 * shared::kProbeBandTexels>;
+
+BandTexels band_texels(const std::array<glm::vec4, shared::kHarmonics>& bands)
+{
+    float light = 0.0f, sky = 0.0f;
+    for (const glm::vec4& band : bands) {
+        for (int c = 0; c < 3; ++c) light = std::max(light, std::abs(band[c]));
+        sky = std::max(sky, std::abs(band.a));
+    }
+    const float per_light = light > 1e-30f ? 1.0f / light : 0.0f, per_sky = sky > 1e-30f ? 1.0f / sky : 0.0f;
+    BandTexels texels{};
+    std::size_t word = 0;
+    for (const glm::vec4& band : bands) {
+        texels[word++] = shared::probe_band_word(glm::clamp(glm::vec2(band.r, band.g) * per_light, -1.0f, 1.0f));
+        texels[word++] = shared::probe_band_word(
+            glm::clamp(glm::vec2(band.b * per_light, band.a * per_sky), -1.0f, 1.0f));
+    }
+    texels[word++] = std::bit_cast<std::uint32_t>(light / shared::kProbeBandOne);
+    texels[word++] = std::bit_cast<std::uint32_t>(sky / shared::kProbeBandOne);
+    return texels;
+}
+
 }  // namespace
 
 ProbeTable::ProbeTable(const Device& device) : device_(&device)
@@ -41,7 +65,7 @@ ProbeTable::ProbeTable(const Device& device) : device_(&device)
 
 void ProbeTable::make_buffers(std::size_t probes)
 {
-    for (auto* buffer : {&rows_, &light_, &spread_}) *buffer = nullptr;
+    for (auto* buffer : {&rows_, &light_, &spread_, &bands_}) *buffer = nullptr;
     arena_ = std::make_unique<MemoryArena>(*device_);
     const auto texels = [&](const char* name, std::size_t count) {
         return arena_->buffer({.name = name,
@@ -58,6 +82,11 @@ void ProbeTable::make_buffers(std::size_t probes)
                               .size = kMostProbes * sizeof(shared::ProbeSpread),
                               .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                               .host = true});
+    bands_ = arena_->buffer({.name = "reflection_probe_bands",
+                             .size = std::max<std::size_t>(probes, 1) * sizeof(BandTexels),
+                             .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                             .texel_format = VK_FORMAT_R32G32B32A32_UINT,
+                             .host = true});
     count_ = static_cast<std::uint32_t>(probes);
 }
 
@@ -85,6 +114,8 @@ void ProbeTable::relight(const PatchLights& patches)
         const auto bands = scene::probe_bands(light);
         std::copy(bands.begin(), bands.end(), spread.bands);
         std::memcpy(spread_->mapped + i * sizeof spread, &spread, sizeof spread);
+        const BandTexels words = band_texels(bands);
+        std::memcpy(bands_->mapped + i * sizeof words, &words, sizeof words);
     });
     if (wanted > 0) {
         relight_ms_ = std::chrono::duration<double, std::milli>(

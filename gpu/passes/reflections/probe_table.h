@@ -26,13 +26,14 @@ public:
     GpuBuffer& rows() const { return *rows_; }
     GpuBuffer& light() const { return *light_; }
     GpuBuffer& spread() const { return *spread_; }  ///< kMostProbes of ProbeSpread
+    GpuBuffer& bands() const { return *bands_; }  ///< kProbeBandTexels a probe
 
 private:
     void make_buffers(std::size_t probes);
 
     const Device* device_;
     std::unique_ptr<MemoryArena> arena_;
-    std::unique_ptr<GpuBuffer> rows_, light_, spread_;
+    std::unique_ptr<GpuBuffer> rows_, light_, spread_, bands_;
     std::uint64_t loads_ = 0;  // of the patches that they stand among
     std::string lit_by_;
     std::uint32_t count_ = 0;
