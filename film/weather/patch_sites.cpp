@@ -27,6 +27,8 @@ constexpr double kBoard_w_m_k = 0.3, kBoard_m = 0.1, kMasonry_m = 0.3, kSlab_m =
 constexpr double kLeaves_m = 0.02;  // of leaves and blades, and the water in them
 constexpr float kIntoHouse_m = 0.5f, kAcrossHouse_m = 60.0f, kSlabMost_m = 1.2f;
 constexpr float kRoomLeast_m = 1.5f, kDoor_m = 2.0f;
+constexpr float kBlade_m = 0.03f;      // what is narrower stands free among its like
+constexpr int kSamplesAsked = 5;       // of a patch, evenly among its kPatchSamples
 constexpr double kGroundNear_m = 0.3;  // of the height field: higher up it is no ground
 
 struct NameWord {
@@ -152,12 +154,12 @@ std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const sc
                     store_of_relief(reliefs.of_material[m], form == GroundForm::Hollow);
             const bool solid = kind.surface.conductivity_w_m_k > kBoard_w_m_k;
             if (form >= GroundForm::House)
-                kind.surface.layers = {{is_foliage(scene.materials[m])  ? kLeaves_m
-                                        : form == GroundForm::Slab ? kSlab_m
-                                        : solid                    ? kMasonry_m
-                                                                   : kBoard_m,
-                                        kind.surface.conductivity_w_m_k,
-                                        kind.surface.heat_capacity_j_m3_k}};
+                kind.surface.layers = {
+                    {is_foliage(scene.materials[m]) || kind.surface.name == "lawn" ? kLeaves_m
+                     : form == GroundForm::Slab                                    ? kSlab_m
+                     : solid                                                       ? kMasonry_m
+                                                                                   : kBoard_m,
+                     kind.surface.conductivity_w_m_k, kind.surface.heat_capacity_j_m3_k}};
             kind.room_behind = form == GroundForm::House;
             kind.surface.open_below = form == GroundForm::Slab;
             kinds.push_back(std::move(kind));
@@ -240,7 +242,19 @@ public:
             if (up.hit() && !soft(up) && (!down.hit() || up.distance_m + down.distance_m >= kDoor_m))
                 return GroundForm::House;
         }
-        return is_thin(c, n) ? GroundForm::Slab : GroundForm::Steep;
+        const bool thin = most_of(i, [&](const scene::PatchSample& s) { return is_thin(s, n); });
+        return thin ? GroundForm::Slab : GroundForm::Steep;
+    }
+
+    // Whether most of what is seen of a patch is blades: triangles that no ground is made of.
+    bool is_blades(std::uint32_t i) const
+    {
+        return most_of(i, [&](const scene::PatchSample& s) {
+            const glm::vec3 a = tracer_.triangles().edge1(s.triangle),
+                            b = tracer_.triangles().edge2(s.triangle);
+            const float longest_m = std::max({glm::length(a), glm::length(b), glm::length(b - a)});
+            return 2.0f * tracer_.triangles().area_m2(s.triangle) < kBlade_m * longest_m;
+        });
     }
 
 private:
@@ -248,17 +262,31 @@ private:
     const scene::Tracer& tracer_;
     std::vector<bool> soft_;
 
-    // Whether a far side is seen from within. The middle of a patch may float before its wall, where a
-    // ledge above it is of the same patch: fronts are gone through.
-    bool is_thin(glm::vec3 at, const glm::vec3& n) const
+    template <class Test>
+    bool most_of(std::uint32_t i, const Test& test) const
     {
+        int yes = 0;
+        for (int k = 0; k < kSamplesAsked; ++k) {
+            const auto number = static_cast<std::size_t>(k * scene::kPatchSamples / kSamplesAsked);
+            if (test(patches_.samples[std::size_t{i} * scene::kPatchSamples + number])) ++yes;
+        }
+        return 2 * yes > kSamplesAsked;
+    }
+    // Whether air is reached from within: what goes into a second body, as a beam sunk into a wall,
+    // has to come out of both.
+    bool is_thin(const scene::PatchSample& sample, const glm::vec3& n) const
+    {
+        constexpr float kPast_m = 0.001f;
+        glm::vec3 at = tracer_.triangles().point(sample.triangle, sample.at) - n * kPast_m;
         float left_m = kSlabMost_m;
-        at -= n * 0.01f;
-        for (int k = 0; k < 3 && left_m > 0.0f; ++k) {
+        int bodies = 1;
+        for (int k = 0; k < 8 && left_m > 0.0f; ++k) {
             const scene::RayHit hit = tracer_.nearest({at, -n, left_m});
-            if (!hit.hit() || hit.back) return hit.back;
-            at -= n * (hit.distance_m + 0.001f);
-            left_m -= hit.distance_m + 0.001f;
+            if (!hit.hit()) return false;
+            bodies += hit.back ? -1 : 1;
+            if (bodies == 0) return true;
+            at -= n * (hit.distance_m + kPast_m);
+            left_m -= hit.distance_m + kPast_m;
         }
         return false;
     }
@@ -382,9 +410,12 @@ weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer
         p.height_m = static_cast<double>(patches.position_m[i].y);
         p.kind = patches.material[i];
         const bool stands = !soft[p.kind] && set.kinds[p.kind].surface.layers.empty();
+        const bool lawn = set.kinds[p.kind].surface.name == "lawn";
         const GroundForm form = is_foliage(scene.materials[p.kind]) ? GroundForm::Slab
                                 : !holds_water(scene.materials[p.kind], patches.normal[i])
-                                    ? (stands ? ways.behind(i) : GroundForm::Steep)
+                                    ? (stands                      ? ways.behind(i)
+                                       : lawn && ways.is_blades(i) ? GroundForm::Slab
+                                                                   : GroundForm::Steep)
                                 : reliefs.hollow[i] ? GroundForm::Hollow
                                                     : GroundForm::Level;
         p.kind += static_cast<std::uint32_t>(form) *

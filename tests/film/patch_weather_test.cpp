@@ -184,6 +184,66 @@ TEST(PatchSites, HousesHaveRoomsBehindTheirWallsAndGardenWallsAir)
     EXPECT_GT(leaves, 50u);
 }
 
+// A timber frame: its beams are bodies of their own, sunk into a wall of one side.
+TEST(PatchSites, ABeamSunkIntoAWallHasBehindItWhatTheWallHas)
+{
+    scene::Scene scene = yard();
+    scene::Material wood;
+    wood.name = "Wood beam";
+    wood.metallic = 0.0f;
+    scene.materials.push_back(wood);
+    add_box(scene, 3, {-2.09f, 0.8f, -2.2f}, {-1.97f, 1.7f, 2.2f});   // in the wall
+    add_box(scene, 3, {-0.09f, 0.8f, -2.2f}, {0.03f, 1.7f, 2.2f});    // the same, free
+    const scene::Triangles triangles(scene, {});
+    const scene::Tracer tracer(triangles);
+    const scene::Patches patches = cut(tracer);
+    const auto surfaces = scene::patch_surfaces(patches, triangles, {});
+    const SceneSites sites =
+        scene_sites(scene, patches, tracer, surfaces, {}, weather::surface_preset("asphalt"));
+    std::size_t sunk = 0, lone = 0;
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const glm::vec3 at = patches.position_m[i];
+        if (patches.material[i] != 3 || patches.normal[i].x < 0.9f) continue;
+        const weather::PatchKind& kind = sites.set.kinds[sites.set.patches[i].kind];
+        const bool free = at.x > -1.0f;
+        ++(free ? lone : sunk);
+        EXPECT_EQ(kind.surface.open_below, free) << at.x << " " << at.y << " " << at.z;
+    }
+    EXPECT_GT(sunk, 4u);
+    EXPECT_GT(lone, 4u);
+}
+
+TEST(PatchSites, BladesOfALawnHaveAirAroundAndItsBanksSoil)
+{
+    scene::Scene scene = yard();
+    scene::Material lawn;
+    lawn.name = "Lawn";
+    lawn.metallic = 0.0f;
+    lawn.double_sided = true;
+    scene.materials.push_back(lawn);
+    for (int k = 0; k < 900; ++k)
+        add_quad(scene, 3, {0.03f * static_cast<float>(k % 30), 0, 0.03f * static_cast<float>(k / 30)},
+                 {0.01f, 0, 0}, {0, 0.3f, 0.02f});
+    add_quad(scene, 3, {3, 0, 0}, {3, 0, 0}, {0, 2, -0.2f});  // a bank
+    const scene::Triangles triangles(scene, {});
+    const scene::Tracer tracer(triangles);
+    const scene::Patches patches = cut(tracer);
+    const auto surfaces = scene::patch_surfaces(patches, triangles, {});
+    const SceneSites sites =
+        scene_sites(scene, patches, tracer, surfaces, {}, weather::surface_preset("asphalt"));
+    std::size_t blades = 0, bank = 0;
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        if (patches.material[i] != 3 || std::abs(patches.normal[i].y) > 0.3f) continue;
+        const weather::PatchKind& kind = sites.set.kinds[sites.set.patches[i].kind];
+        const bool blade = patches.position_m[i].x < 2.0f;
+        ++(blade ? blades : bank);
+        EXPECT_EQ(kind.surface.open_below, blade) << patches.position_m[i].x;
+        EXPECT_NEAR(kind.surface.layers.at(0).thickness_m, blade ? 0.02 : 0.01, 1e-9);
+    }
+    EXPECT_GT(blades, 4u);
+    EXPECT_GT(bank, 8u);
+}
+
 TEST(PatchSites, WaterGoesWhereTheSceneLeadsIt)
 {
     const Place place;

@@ -17,10 +17,31 @@ float frost_edge(SurfaceInput at, vec3 mapped)
     return saturate(edge + 0.25 * (material.roughness_factor - 0.5));
 }
 
+Uv across(Uv uv)
+{
+    return Uv(place_across(uv.at), place_across(uv.dx), place_across(uv.dy));
+}
+
+// Noise of the crystals, 0..1 around 0.5: one of half a metre, one of a hand. Of wide ground the wider by two readings
+// and the finer turned against both, as large in the mean as elsewhere: else hoar showed the lattice of the map.
+float frost_crystals(SurfaceInput at)
+{
+    const Uv place = metres_along(at);
+    float crystals;
+    if ((BESIDES & BESIDES_WIDE_GROUND) == 0u) {
+        crystals = 0.6 * texel(snow_map, scaled(place, 2.3)).b + 0.4 * texel(snow_map, scaled(place, 9.1)).b;
+    } else {
+        const Uv wide = scaled(place, 3.07);
+        const float mean = textureLod(snow_map, wide.at, 16.0).b;
+        crystals = 0.6 * mask_of_two(texel(snow_map, wide).b, texel(snow_map, across(wide)).b, mean) +
+                   0.4 * texel(snow_map, across(across(scaled(place, 29.0)))).b;  // 9.1 after both turns
+    }
+    return saturate(0.5 + 2.6 * (crystals - 0.5));
+}
+
 float frost_on(SurfaceInput at, vec3 mapped, float amount)
 {
-    const float crystals = 0.6 * texel_along(snow_map, at, 2.3).b + 0.4 * texel_along(snow_map, at, 9.1).b;
-    return frost_cover(amount, saturate(0.5 + 2.6 * (crystals - 0.5)), frost_edge(at, mapped));
+    return frost_cover(amount, frost_crystals(at), frost_edge(at, mapped));
 }
 
 #endif

@@ -51,16 +51,22 @@ vec4 texel_from_above(sampler2D map, SurfaceInput at, float tiling, vec2 shift)
                        at.position_dy.xz * tiling);
 }
 
-// The same along the surface: from above on level ground, from the side on walls.
-vec4 texel_along(sampler2D map, SurfaceInput at, float tiling)
+// Where such a map lies along the surface, in metres: from above on level ground, from the side on walls.
+Uv metres_along(SurfaceInput at)
 {
     const vec3 n = abs(at.normal);
     const bool above = n.y > 0.6;
     const bool side = n.x > n.z;
-    const vec2 p = above ? at.position.xz : side ? at.position.zy : at.position.xy;
-    const vec2 dx = above ? at.position_dx.xz : side ? at.position_dx.zy : at.position_dx.xy;
-    const vec2 dy = above ? at.position_dy.xz : side ? at.position_dy.zy : at.position_dy.xy;
-    return textureGrad(map, p * tiling, dx * tiling, dy * tiling);
+    Uv result;
+    result.at = above ? at.position.xz : side ? at.position.zy : at.position.xy;
+    result.dx = above ? at.position_dx.xz : side ? at.position_dx.zy : at.position_dx.xy;
+    result.dy = above ? at.position_dy.xz : side ? at.position_dy.zy : at.position_dy.xy;
+    return result;
+}
+
+Uv scaled(Uv uv, float tiling)
+{
+    return Uv(uv.at * tiling, uv.dx * tiling, uv.dy * tiling);
 }
 
 // A normal from two channels of 0..1; longer than 1 only where the strength says so.
