@@ -102,6 +102,10 @@ void run(Arguments& a)
         throw Error("score: --sheet shows the pictures of --picture, which was not asked for",
                     "Add --picture quick, or leave --sheet out.");
     }
+    if (a.json && (!a.protocol.pictures.empty() || !a.protocol.effort.empty())) {
+        throw Error("score: --json is for the score of one map, --picture and --protocol write tables",
+                    "Add --csv out.csv for every case, or leave --json out.");
+    }
     if (!a.protocol.pictures.empty() && !a.protocol.effort.empty()) {
         throw Error("score: --picture and --protocol are two measures",
                     "Ask for one of them at a time.");
@@ -162,7 +166,7 @@ void add_texture_score(CLI::App& texture)
     app->add_option("--texels", a->scoring.texels, "mip texels a level")->capture_default_str();
     app->add_option("--points", a->scoring.points, "half-vectors a texel")->capture_default_str();
     app->add_option("--seed", a->scoring.seed, "which texels and points")->capture_default_str();
-    app->add_flag("--json", a->json, "for machines");
+    app->add_flag("--json", a->json, "for machines; of --picture and --protocol: --csv");
     app->add_flag("--selftest", a->self_test, "check the yardstick itself");
     app->add_option(
            "--protocol", a->protocol.effort,

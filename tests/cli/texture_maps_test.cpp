@@ -146,6 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"compare_fails",
                 {"compare", "color.png", "zero.png", "--fail-psnr", "60"},
                 "differ by more"},
+        Mistake{"score_json", {"score", "--picture", "quick", "--json"}, "--csv"},
         Mistake{"inspect_text", {"inspect", "text.png", "rough.png"}, "text.png"},
         Mistake{"sheet_maps", {"inspect", "rough.png", "--sheet", "out.png"}, "--sheet and --film need"},
         Mistake{"film_kind", {"inspect", "normal.png", "rough.png", "--film", "out.gif"}, ".mp4"},
