@@ -313,6 +313,23 @@ TEST_F(LightingModelsTest, WhatLiesOverAModelThatGathersIsNoPartOfIt)
     EXPECT_NEAR(aov(wet, "diffuse_direct", 8, 8) + aov(wet, "specular_direct", 8, 8), seen, 0.002f * seen);
 }
 
+// The example of data/shaders: two lamps that are too dim for the first band each reach it together.
+TEST_F(LightingModelsTest, TheToonStepsUpWithTheSum)
+{
+    Material material = plain_material(glm::vec3(0.8f), 1.0f);
+    material.lighting_model = PETRICHOR_SOURCE_DIR "/data/shaders/toon.glsl";
+    Scene scene = plate(material, {0, -1, 0});
+    const float dim = 0.15f * 3.14159265f;
+    Frame frame = lit_plate({0, 5, 0.01f});
+    frame.settings.exposure = 1.0f;
+    for (int lamps = 1; lamps <= 4; ++lamps) {
+        scene.lights.assign(static_cast<std::size_t>(lamps), from_above(dim, 0.0f));
+        renderer->load(scene, {});
+        const float bands = std::floor(0.15f * static_cast<float>(lamps) * 4.0f);
+        EXPECT_NEAR(pixel(renderer->render(frame), 8, 8).g, 0.8f * bands / 4.0f, 0.005f) << lamps;
+    }
+}
+
 // A leaf between the eye and a lamp: black with an opaque leaf, lit with one that lets light through.
 TEST_F(LightingModelsTest, ALeafBeforeALampIsLitFromBehind)
 {
