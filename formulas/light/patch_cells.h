@@ -28,8 +28,8 @@ struct PatchKey {
 // Cell of level 0 that holds the point; inverse_cell = 1 / edge of a cell of level 0.
 SHARED_FN ivec3 patch_cell(vec3 x, float inverse_cell)
 {
-    const vec3 c = floor(x * inverse_cell + vec3(kPatchGridShift));
-    return ivec3(int(c.x), int(c.y), int(c.z)) + ivec3(kPatchCellBias);
+    const vec3 c = floor(x * inverse_cell + splat3(kPatchGridShift));
+    return ivec3(int(c.x), int(c.y), int(c.z)) + ivec3(kPatchCellBias, kPatchCellBias, kPatchCellBias);
 }
 
 // Of a cell counted in its own level: cell of level 0 >> level. No two cells share a key.

@@ -49,7 +49,7 @@ SHARED_FN float glow_share(float roughness)
 // 1 in the box low .. high, 0 from blend_m outside it on.
 SHARED_FN float reflection_probe_share(vec3 position, vec3 low, vec3 high, float blend_m)
 {
-    const vec3 beyond = max(max(low - position, position - high), vec3(0.0f));
+    const vec3 beyond = max(max(low - position, position - high), splat3(0.0f));
     return clamp(1.0f - length(beyond) / max(blend_m, 1.0e-3f), 0.0f, 1.0f);
 }
 
@@ -64,7 +64,7 @@ SHARED_FN float reflection_probe_weight(float share, float boost, vec3 way)
 // second and the third change places.
 SHARED_FN vec2 reflection_probe_blend(vec3 heaviest)
 {
-    const vec2 w = vec2(heaviest.x, heaviest.y) - vec2(0.98f * heaviest.z);
+    const vec2 w = vec2(heaviest.x, heaviest.y) - splat2(0.98f * heaviest.z);
     return w / max(w.x + w.y, 1.0e-20f);
 }
 

@@ -63,7 +63,7 @@ SHARED_FN WeatheredMaterial dry_material(DryMaterial dry)
 // water, n = 1.33, with a reflectance of 0.0659 from above and 0.4719 from below.
 SHARED_FN vec3 wet_albedo(vec3 dry)
 {
-    return dry * (0.9341f * 0.5281f) / (vec3(1.0f) - 0.4719f * dry);
+    return dry * (0.9341f * 0.5281f) / (splat3(1.0f) - 0.4719f * dry);
 }
 
 // Share of a surface that a film darkens so: all of what is matt. Below gloss (paint, glaze, polish) light
@@ -102,7 +102,7 @@ SHARED_FN WeatheredMaterial apply_water(WeatheredMaterial dry, vec2 film, float 
     wet.normal_mix = t3;
     const float smoothed = mix(dry.smoothness, mix(0.85f, 0.60f, pore_factor), t2);
     wet.smoothness = mix(smoothed, 0.9f, t2);
-    wet.specular = mix(dry.specular, vec3(0.02f), t2 * (1.0f - metalness));
+    wet.specular = mix(dry.specular, splat3(0.02f), t2 * (1.0f - metalness));
     return wet;
 }
 
@@ -135,7 +135,7 @@ SHARED_FN WeatheredMaterial apply_frost(WeatheredMaterial under, float cover)
 {
     WeatheredMaterial frosty = under;
     frosty.albedo = mix(under.albedo, vec3(0.87f, 0.88f, 0.89f), 0.85f * cover);
-    frosty.specular = mix(under.specular, vec3(0.018f), cover);
+    frosty.specular = mix(under.specular, splat3(0.018f), cover);
     frosty.smoothness = mix(under.smoothness, 0.35f, cover);
     return frosty;
 }
@@ -146,7 +146,7 @@ SHARED_FN WeatheredMaterial apply_ice(WeatheredMaterial under, float ice)
 {
     WeatheredMaterial icy = under;
     icy.albedo = mix(under.albedo, vec3(0.52f, 0.57f, 0.61f), 0.4f * ice);
-    icy.specular = mix(under.specular, vec3(0.018f), ice);
+    icy.specular = mix(under.specular, splat3(0.018f), ice);
     icy.smoothness = mix(under.smoothness, 0.84f, ice);
     return icy;
 }

@@ -51,7 +51,7 @@ SHARED_FN Beads bead_of_cell(vec3 p, vec3 normal, uint seed, float amount)
     const vec3 kind = three_of_hash(hash_u(h ^ 0x68bc21ebu));
     const float grown = saturate(1.6f * amount - 0.6f * kind.y) * saturate(6.0f * amount);
     const float radius = (0.2f + 0.25f * kind.x * kind.x) * grown;
-    const vec3 d = p - corner - (vec3(radius) + (1.0f - 2.0f * radius) * place);
+    const vec3 d = p - corner - (splat3(radius) + (1.0f - 2.0f * radius) * place);
     const float above = dot(d, normal);
     const vec3 along = d - normal * above;
     const float disc2 = radius * radius - above * above;
