@@ -231,6 +231,10 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
     vertices.insert(vertices.end(), overlay.vertices.begin(), overlay.vertices.end());
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
     sort_draws(draws_, materials_);
+    for (const Draw& draw : draws_) {
+        const bool laid_out = draw.moving < 0 && draw.shape < 0 && draw.to_world == glm::mat4(1.0f);
+        materials_[draw.material].in_world = materials_[draw.material].in_world && laid_out;
+    }
     covered_.resize(draws_.size());
     for (Draw& draw : draws_) {
         draw.most_indices = draw.index_count;

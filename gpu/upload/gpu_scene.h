@@ -89,6 +89,7 @@ struct GpuMaterial {
     bool decal_weather = false;        ///< as a decal it brings its own
     bool looks = false;                ///< some instance has other values than it
     bool on_shapes = false;            ///< some marched shape shows it
+    bool in_world = true;              ///< what shows it is laid out in the world, and stays
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness

@@ -69,6 +69,47 @@ TEST_F(Instances, OneDrawOfManyShowsWhatManyDrawsShow)
     }
 }
 
+// A corner as modelled, and another one elsewhere: of the same material, or of one that looks the same.
+Scene laid_out(bool same_material)
+{
+    Scene scene;
+    const Material plain = plain_material(glm::vec3(0.6f, 0.4f, 0.3f));
+    scene.materials = {plain, plain};
+    scene.meshes = {corner(), corner()};
+    for (Primitive& side : scene.meshes[1].primitives) side.material = same_material ? 0u : 1u;
+    scene.instances.push_back({"corner", 0, glm::mat4(1.0f)});
+    scene.instances.push_back({"other", 1, glm::translate(glm::mat4(1.0f), {-0.7f, 0.1f, 0.2f})});
+    return scene;
+}
+
+TEST_F(Instances, WhatIsLaidOutInTheWorldIsShadedWithoutATransform)
+{
+    Frame frame;
+    frame.camera = look({2, 3, 4}, {0.4f, 0.3f, 0.4f});
+    frame.settings.width = frame.settings.height = 96;
+    frame.settings.samples = 2;
+    frame.settings.surface_path = SurfacePath::Visibility;
+    frame.settings.aovs = {"normal", "depth"};
+    renderer->load(laid_out(false), {});
+    const RenderResult alone = renderer->render(frame);
+    renderer->load(laid_out(true), {});
+    const RenderResult with_another = renderer->render(frame);
+    EXPECT_EQ(alone.beauty, with_another.beauty);
+    for (std::size_t i = 0; i < alone.aovs.size(); ++i)
+        EXPECT_EQ(alone.aovs[i].pixels, with_another.aovs[i].pixels) << alone.aovs[i].name;
+}
+
+TEST_F(Instances, OneThatIsElsewhereIsNotLaidOutInTheWorld)
+{
+    if (!renderer) return;
+    renderer.reset();  // its device is not needed
+    const Device device(RendererOptions{.device = "", .validation = true});
+    const GpuScene apart(device, laid_out(false), {});
+    EXPECT_TRUE(apart.materials()[0].in_world);
+    EXPECT_FALSE(apart.materials()[1].in_world);
+    EXPECT_FALSE(GpuScene(device, laid_out(true), {}).materials()[0].in_world);
+}
+
 TEST_F(Instances, OfOneShapeAreOneRun)
 {
     if (!renderer) return;

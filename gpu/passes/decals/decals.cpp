@@ -21,7 +21,7 @@ constexpr int kSpecialized[] = {
     SURFACE_SPEC_LAYER_ROLES_C,                        SURFACE_SPEC_FALLS,
     DECAL_SPEC_WEATHER,    DECAL_SPEC_EMISSION,        RESOLVE_SPEC_WEATHER,
     RESOLVE_SPEC_EMISSION, RESOLVE_SPEC_BAKED,         RESOLVE_SPEC_PAYLOAD,
-    RESOLVE_SPEC_SHAPES};
+    RESOLVE_SPEC_SHAPES,   RESOLVE_SPEC_IN_WORLD};
 constexpr bool all_differ()
 {
     for (std::size_t i = 0; i < std::size(kSpecialized); ++i) {

@@ -10,6 +10,7 @@ layout(constant_id = RESOLVE_SPEC_EMISSION) const uint SURFACE_EMISSION = 1u;
 layout(constant_id = RESOLVE_SPEC_PAYLOAD) const uint SURFACE_PAYLOAD = 1u;
 layout(constant_id = RESOLVE_SPEC_BAKED) const uint SURFACE_BAKED = 0u;
 layout(constant_id = RESOLVE_SPEC_SHAPES) const uint SHAPES = 0u;
+layout(constant_id = RESOLVE_SPEC_IN_WORLD) const uint IN_WORLD = 0u;
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
 layout(local_size_x = RESOLVE_GROUP) in;
@@ -61,18 +62,24 @@ Corner corner_of(int draw, int vertex)
     const uvec4 b = texelFetch(vertices, vertex * 4 + 1);
     const uvec4 c = texelFetch(vertices, vertex * 4 + 2);
     const uvec4 d = texelFetch(vertices, vertex * 4 + 3);
-    const vec4 x = row_of(draw, 0);
-    const vec4 y = row_of(draw, 1);
-    const vec4 z = row_of(draw, 2);
-    const vec4 p = vec4(uintBitsToFloat(a.xyz), 1.0);
     const vec3 n = uintBitsToFloat(uvec3(a.w, b.xy));
     const vec3 t = uintBitsToFloat(uvec3(b.zw, c.x));
     Corner corner;
-    corner.position = vec3(dot(x, p), dot(y, p), dot(z, p)) - frame.camera_m;
-    corner.normal = vec3(dot(row_of(draw, 3).xyz, n), dot(row_of(draw, 4).xyz, n),
-                         dot(row_of(draw, 5).xyz, n));
-    corner.tangent =
-        vec4(dot(x.xyz, t), dot(y.xyz, t), dot(z.xyz, t), uintBitsToFloat(c.y));
+    if (IN_WORLD != 0u) {
+        corner.position = uintBitsToFloat(a.xyz) - frame.camera_m;
+        corner.normal = n;
+        corner.tangent = vec4(t, uintBitsToFloat(c.y));
+    } else {
+        const vec4 x = row_of(draw, 0);
+        const vec4 y = row_of(draw, 1);
+        const vec4 z = row_of(draw, 2);
+        const vec4 p = vec4(uintBitsToFloat(a.xyz), 1.0);
+        corner.position = vec3(dot(x, p), dot(y, p), dot(z, p)) - frame.camera_m;
+        corner.normal = vec3(dot(row_of(draw, 3).xyz, n), dot(row_of(draw, 4).xyz, n),
+                             dot(row_of(draw, 5).xyz, n));
+        corner.tangent =
+            vec4(dot(x.xyz, t), dot(y.xyz, t), dot(z.xyz, t), uintBitsToFloat(c.y));
+    }
     corner.uv = uintBitsToFloat(uvec4(c.zw, d.xy));
     corner.color = unpackUnorm4x8(d.z);
     corner.weather = unpackUnorm4x8(d.w);
@@ -118,7 +125,7 @@ void main()
     const int draw = int(id.x) - 1;
     const uvec4 facts = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 6);
     const uvec4 more = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 7);
-    const bool mirrored = more.x != 0u;
+    const bool mirrored = IN_WORLD == 0u && more.x != 0u;
 
     Triangle t;
     for (int i = 0; i < 3; ++i) {

@@ -223,7 +223,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {RESOLVE_SPEC_EMISSION, glows(material)},
             {RESOLVE_SPEC_PAYLOAD, (material.besides & BESIDES_AS_CLEARED) == 0},
             {RESOLVE_SPEC_BAKED, parts.baked},
-            {RESOLVE_SPEC_SHAPES, material.on_shapes}};
+            {RESOLVE_SPEC_SHAPES, material.on_shapes},
+            {RESOLVE_SPEC_IN_WORLD, material.in_world}};
     };
     clear_targets(graph, targets, parts);
     const char* shader = scene.own_surfaces().any() ? kOwnResolveShader : kResolveShader;
