@@ -93,7 +93,7 @@ SHARED_FN uint probe_band_word(vec2 numbers)
 {
     const uint lower = uint(int(floor(numbers.x * 32767.0f + 0.5f))) & 65535u;
     const float below = float(lower) * (1.0f / 65536.0f);
-    return uint(int(floor(numbers.y * 32767.0f + 0.5f - below))) << 16 | lower;
+    return uint(int(floor(numbers.y * 32767.0f + 0.5f - below))) << 16u | lower;
 }
 
 SHARED_CONST float kProbeBandOne = 32767.0f * 65536.0f;
@@ -101,7 +101,7 @@ SHARED_CONST float kProbeBandOne = 32767.0f * 65536.0f;
 // .. times kProbeBandOne.
 SHARED_FN vec2 probe_bands_of_word(uint word)
 {
-    return vec2(float(int(word << 16)), float(int(word)));
+    return vec2(float(int(word << 16u)), float(int(word)));
 }
 
 // What a GGX lobe seen along the normal leaves of the i-th function; fitted to its integrals (0.003 of the first

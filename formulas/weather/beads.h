@@ -38,7 +38,7 @@ SHARED_FN float bead_seen(float cell_m, float pixel_m)
 // Three hundredths of numbers of one hash, each 0..1.
 SHARED_FN vec3 three_of_hash(uint h)
 {
-    return vec3(float(h & 1023u), float((h >> 10) & 1023u), float((h >> 20) & 1023u)) / 1023.0f;
+    return vec3(float(h & 1023u), float((h >> 10u) & 1023u), float((h >> 20u) & 1023u)) / 1023.0f;
 }
 
 // The ball of the cell of `p` (in cells, turned): its lean comes back in turned axes too.

@@ -113,6 +113,11 @@ public:
         const bool compares = what == glslang::EOpEqual || what == glslang::EOpNotEqual ||
                               what == glslang::EOpVectorEqual || what == glslang::EOpVectorNotEqual;
         if (compares && !node->getLeft()->isScalar()) object(*node, "vectors or structs are compared as a whole");
+        const bool shifts = what == glslang::EOpLeftShift || what == glslang::EOpRightShift ||
+                            what == glslang::EOpLeftShiftAssign || what == glslang::EOpRightShiftAssign;
+        if (shifts && node->getLeft()->getBasicType() != node->getRight()->getBasicType()) {
+            object(*node, "a shift of one type by another");
+        }
         return true;
     }
     void visitSymbol(glslang::TIntermSymbol* node) override

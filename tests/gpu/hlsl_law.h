@@ -16,7 +16,8 @@ namespace petrichor::gpu {
 std::vector<std::string> objections_of(const std::string& text);
 
 /// The same of what a tree of GLSL shows: vectors made of one number or cut from a longer one, vectors and structs
-/// compared as a whole, constructors of structs, arrays that are no members, matrices.
+/// compared as a whole, constructors of structs, arrays that are no members, matrices; and what Godot 4.6 refuses: an
+/// unsigned number shifted by a signed one.
 std::vector<std::string> objections_of(glslang::TIntermediate& tree);
 
 }  // namespace petrichor::gpu

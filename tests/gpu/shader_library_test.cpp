@@ -191,6 +191,8 @@ TEST(HlslLaw, FindsWhatItLooksFor)
     EXPECT_EQ(of_tree("o = vec4(a.x, a.y, a.z, 1.0) + 2.0 * a;"), 0u);
     EXPECT_EQ(of_tree("ivec2 i = ivec2(a.xy); o = vec4(vec2(i), 1.0, 1.0);"), 0u);
     EXPECT_EQ(of_tree("S s; s.v = a.xy; s.all[1] = a.z; o = vec4(s.v, s.all[1], 1.0);"), 0u);
+    EXPECT_EQ(of_tree("uint u = uint(a.x); o = a * float(u >> 3u);"), 0u);
+    EXPECT_EQ(of_tree("uint u = uint(a.x); u ^= u >> 3; o = a * float(u);"), 1u);
     EXPECT_EQ(of_tree("o = vec4(a.x);"), 1u);
     EXPECT_EQ(of_tree("o = vec4(vec3(a), 1.0);"), 1u);
     EXPECT_EQ(of_tree("o = a.xy == a.zw ? a : -a;"), 1u);
