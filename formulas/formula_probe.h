@@ -14,6 +14,7 @@
 #include "formulas/light/brdf.h"
 #include "formulas/light/clouds.h"
 #include "formulas/light/cube_map.h"
+#include "formulas/light/cube_quads.h"
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/lamp_glow.h"
@@ -50,7 +51,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 60;
+SHARED_CONST int kProbeKinds = 61;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -533,6 +534,14 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const MarchedShape sponge = probe_shape(SHAPE_MENGER, 2, 0.0f, splat3(1.0f));
         const float open = shape_open(sponge, from * 0.3f, n, 0.01f);
         return vec4(min(abs(ends.x), 9.0f), min(abs(ends.y), 9.0f), met, n.x + 2.0f * n.y + open);
+    }
+    if (kind == 60) {
+        const CubePlace place = cube_place(probe_direction(a.x, a.y));
+        const CubePlace beside = cube_beside(int(5.999f * a.z), ivec2(-1, int(15.999f * a.w)), 16);
+        const vec3 light = light_of_word(light_word(900.0f * b.w * b.w * vec3(b.x, b.y, b.z)), c.x);
+        const int quad = cube_quad(cube_quads_begin(1 + int(5.0f * c.y)), 1 << (1 + int(5.0f * c.y)), place.face, ivec2(1, 2));
+        return vec4(float(place.face) + 0.25f * place.st.x, place.st.y + float(quad),
+                    float(beside.face) + 0.25f * beside.st.x + 0.0625f * beside.st.y, light.x + 2.0f * light.y + 3.0f * light.z);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

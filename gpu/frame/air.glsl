@@ -3,6 +3,8 @@
 #ifndef PETRICHOR_AIR_GLSL
 #define PETRICHOR_AIR_GLSL
 
+#include "gpu/passes/sky/sky_quads_io.h"
+
 // Share of the light of a point that reaches the camera through the fog, 0..1. Drops and flakes that
 // are drawn one by one are no haze.
 float air_kept(vec3 position)
@@ -27,6 +29,6 @@ vec3 air_level(vec3 view)
 {
     return normalize(vec3(view.x, max(view.y, 0.05), view.z));
 }
-const float kAirMip = 5.0;
+const float kAirMip = float(SKY_AIR_MIP);
 
 #endif

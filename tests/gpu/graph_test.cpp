@@ -1,8 +1,12 @@
 // The graph on a device, with synchronization validation: what bindings and attachments declare is
 // enough, and a declaration that lies is caught.
 #include "gpu/device/graph.h"
+#include "formulas/light/cube_quads.h"
 #include "gpu/frame/pixel_list.h"
 #include "gpu/passes/sky/scattered_again.h"
+#include "gpu/passes/sky/sky_io.h"
+
+#include <glm/gtc/packing.hpp>
 
 #include "tests/gpu/gpu_fixture.h"
 
@@ -92,6 +96,71 @@ TEST_F(GraphTest, EveryHazardBetweenBuffersIsCovered)
         }});
     graph.execute(*device, *pipelines, *descriptors);
     graph.execute(*device, *pipelines, *descriptors);  // states go on from frame to frame
+    expect_silence();
+}
+
+// Each texel of a cube is another number; each quad holds the four around it, over the edges of faces too.
+TEST_F(GraphTest, QuadsOfACubeHoldWhatLiesAroundThem)
+{
+    constexpr int side = 8;
+    constexpr int quads = 6 * (side + 1) * (side + 1);
+    const auto number = [](int face, glm::ivec2 texel) { return static_cast<float>((face * side + texel.y) * side + texel.x); };
+    std::vector<std::byte> texels_of_it;
+    for (int i = 0; i < 6 * side * side; ++i) {
+        const std::uint64_t texel = glm::packHalf4x16(glm::vec4(static_cast<float>(i), 0.0f, 1.0f, 1.0f));
+        const auto* bytes = reinterpret_cast<const std::byte*>(&texel);
+        texels_of_it.insert(texels_of_it.end(), bytes, bytes + sizeof texel);
+    }
+    const auto cube = arena->image({.name = "cube",
+                                    .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                    .width = side,
+                                    .height = side,
+                                    .layers = 6,
+                                    .cube = true,
+                                    .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                                             VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    upload_image(*device, *cube, {texels_of_it});
+    const int begin = shared::cube_quads_begin(3);
+    const auto made = arena->buffer({.name = "quads",
+                                     .size = static_cast<VkDeviceSize>(begin + quads) * sizeof(glm::uvec4),
+                                     .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                     .host = true});
+    FrameGraph graph;
+    graph.add(ComputePass{.name = "sky_quads",
+                          .shader = "sky_quads.comp",
+                          .constants = {},
+                          .bindings = {{SKY_SOURCE, storage(*cube, 0)}, {SKY_TARGET, storage_buffer(*made)}},
+                          .push = PushBlock(shared::SkyQuadsParams{begin}),
+                          .groups = groups_over(side + 1, side + 1, SKY_TILE, 6)});
+    graph.read_back({made.get()});
+    graph.execute(*device, *pipelines, *descriptors);
+    const auto* words = reinterpret_cast<const glm::uvec4*>(made->mapped);
+    int corners = 0;
+    for (int k = 0; k < quads; ++k) {
+        const int face = k / ((side + 1) * (side + 1));
+        const glm::ivec2 quad(k % (side + 1), k / (side + 1) % (side + 1));
+        float sum = 0.0f, mean = -1.0f;
+        for (int i = 0; i < 4; ++i) {
+            const glm::ivec2 texel = quad - 1 + glm::ivec2(i & 1, i >> 1);
+            const glm::bvec2 inside = glm::equal(glm::clamp(texel, 0, side - 1), texel);
+            const float held = shared::light_of_word(words[begin + k][i], 1.0f).x;
+            if (!inside.x && !inside.y) {
+                mean = held;
+                continue;
+            }
+            float expected = number(face, texel);
+            if (!glm::all(inside)) {
+                const shared::CubePlace beside = shared::cube_beside(face, texel, side);
+                expected = number(beside.face, glm::ivec2((beside.st * 0.5f + 0.5f) * static_cast<float>(side)));
+            }
+            ASSERT_EQ(held, expected) << "face " << face << " quad " << quad.x << " " << quad.y << " texel " << i;
+            sum += expected;
+        }
+        if (mean < 0.0f) continue;
+        EXPECT_NEAR(mean, sum / 3.0f, 0.51f);
+        ++corners;
+    }
+    EXPECT_EQ(corners, 24);
     expect_silence();
 }
 

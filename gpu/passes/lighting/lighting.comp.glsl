@@ -73,9 +73,8 @@ layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; }
 layout(binding = LIGHTING_OCCLUSION) uniform usamplerBuffer occlusion_words;
 layout(binding = LIGHTING_SHADOW) uniform sampler2DArray shadow_map;
 layout(binding = LIGHTING_LAMP_SHADOWS) uniform sampler2DArray lamp_shadow_map;
-layout(binding = LIGHTING_SPECULAR) uniform samplerCube specular_map;
+layout(binding = LIGHTING_SKY_QUADS) uniform usamplerBuffer sky_quads;
 layout(binding = LIGHTING_ENV_BRDF) uniform sampler2D env_brdf;
-layout(binding = LIGHTING_SKY) uniform samplerCube sky_map;
 layout(binding = LIGHTING_LIGHTS) uniform samplerBuffer lights;
 layout(binding = LIGHTING_MATERIALS) uniform samplerBuffer material_looks;
 layout(binding = LIGHTING_LAYERS) uniform samplerBuffer layers_table;
@@ -96,6 +95,7 @@ layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D 
 layout(binding = LIGHTING_MIRROR_LIST, scalar) buffer Mirrors { uint mirror_count; uint mirror_pixels[]; };
 
 #include "gpu/frame/air.glsl"
+#include "gpu/frame/sky_quads.glsl"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
 #include "gpu/passes/patch_light/patch_spread.glsl"
 
@@ -610,7 +610,7 @@ void main()
         }
         if (FOG != 0u) {
             const float kept = air_kept(position);
-            const vec3 veil = textureLod(sky_map, air_level(-v), kAirMip).rgb;
+            const vec3 veil = sky_veil(air_level(-v));
             radiance = mix(veil, radiance, kept);
             if (PARTS != 0u) veil_parts(parts, kept, veil);
             mirror.rgb *= kept;

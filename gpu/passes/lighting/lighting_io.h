@@ -41,9 +41,9 @@
 #define LIGHTING_OCCLUSION 2
 #define LIGHTING_SHADOW 3
 #define LIGHTING_SKY_VISIBILITY 4
-#define LIGHTING_SPECULAR 5
+#define LIGHTING_SKY_QUADS 5
 #define LIGHTING_ENV_BRDF 6
-#define LIGHTING_SKY 7
+#define LIGHTING_PROBE_BANDS 7  // kProbeBandTexels of each
 #define LIGHTING_LIGHTS 8
 #define LIGHTING_LIGHT_LISTS 9
 #define LIGHTING_ACCUMULATED 10
@@ -62,7 +62,6 @@
 #define LIGHTING_PARTS 23
 #define LIGHTING_MIRROR_LIST 24  // gpu/frame/pixel_list_io.h
 #define LIGHTING_PROBES 25       // ProbeSpread of each
-#define LIGHTING_PROBE_BANDS 26  // kProbeBandTexels of each
-#define LIGHTING_GBUFFER 27      // depth, then the targets
+#define LIGHTING_GBUFFER 26      // depth, then the targets
 
 #endif

@@ -92,7 +92,7 @@ vec3 rough_mirror(LitPoint p, Ambient around, ProbesHere probed, vec3 normal, fl
 {
     const vec3 ray = reflect(-p.view, normal);
     const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);
-    const vec3 sky = textureLod(specular_map, ray, lod).rgb;
+    const vec3 sky = sky_lobe(ray, lod);
     const vec3 even = sky * around.mirrored;
     if (PROBES == 0u) return even;
     const vec4 lobe = probed_lobe(probed, rough_mirror_direction(normal, ray, roughness), roughness * roughness);

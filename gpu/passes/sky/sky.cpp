@@ -6,12 +6,14 @@
 
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
+#include "formulas/light/cube_quads.h"
 #include "formulas/light/fog.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/sun.h"
 #include "gpu/passes/sky/seen_sky.h"
 #include "gpu/passes/sky/sky_io.h"
+#include "gpu/passes/sky/sky_quads_io.h"
 
 namespace petrichor::gpu {
 
@@ -30,7 +32,7 @@ constexpr int kCubeMips = 9;
 // SKY_BINS_MIP). Drawn that coarse, mirrors would show other edges of clouds, by up to 13 codes.
 constexpr int kLightMip = 1;
 constexpr int kIrradianceMip = 4;  // 24 texels a side
-constexpr int kSpecularSize = 64;
+constexpr int kSpecularSize = 1 << SKY_SPECULAR_LOG2;
 constexpr int kBrdfSize = 64;
 
 std::unique_ptr<GpuImage> cube_map(MemoryArena& arena, const char* name, int size, int mips)
@@ -45,6 +47,19 @@ std::unique_ptr<GpuImage> cube_map(MemoryArena& arena, const char* name, int siz
                         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
                                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                  VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+}
+
+static_assert(kSpecularSize >> (SKY_PREFILTER_MIPS - 1) == 2 && kCubeSize >> SKY_AIR_MIP == SKY_AIR_SIDE);
+
+void add_quads(FrameGraph& graph, SkyMaps& maps, GpuImage& source, int mip, int begin)
+{
+    const int side = source.width >> mip;
+    graph.add(ComputePass{.name = "sky_quads",
+                          .shader = "sky_quads.comp",
+                          .constants = {},
+                          .bindings = {{SKY_SOURCE, storage(source, mip)}, {SKY_TARGET, storage_buffer(*maps.quads)}},
+                          .push = PushBlock(shared::SkyQuadsParams{begin}),
+                          .groups = groups_over(side + 1, side + 1, SKY_TILE, 6)});
 }
 
 // Mips of the cube from one of them, then the lobes that the specular light reads.
@@ -67,7 +82,9 @@ void add_filtered(FrameGraph& graph, SkyMaps& maps, int first)
             .push = PushBlock(shared::PrefilterParams{roughness, static_cast<float>(kCubeSize),
                                                       static_cast<float>(first), static_cast<float>(kCubeMips)}),
             .groups = groups_over(size, size, SKY_TILE, 6)});
+        add_quads(graph, maps, *maps.specular, mip, shared::cube_quads_begin(SKY_SPECULAR_LOG2 - mip));
     }
+    add_quads(graph, maps, *maps.cube, SKY_AIR_MIP, SKY_AIR_QUADS);
 }
 
 constexpr std::size_t kTiles = std::size_t{6} * kSkyTilesAcross * kSkyTilesAcross;
@@ -156,6 +173,10 @@ SkyMaps::SkyMaps(const Device& device, MemoryArena& arena)
                        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT})),
       cube(cube_map(arena, "sky_cube", kCubeSize, kCubeMips)),
       specular(cube_map(arena, "sky_specular", kSpecularSize, SKY_PREFILTER_MIPS)),
+      quads(arena.buffer({.name = "sky_quads",
+                          .size = SKY_QUADS * sizeof(glm::uvec4),
+                          .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                          .texel_format = VK_FORMAT_R32G32B32A32_UINT})),
       env_brdf(arena.image({.name = "env_brdf",
                             .format = VK_FORMAT_R16G16_SFLOAT,
                             .width = kBrdfSize,

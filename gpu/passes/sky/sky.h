@@ -18,6 +18,7 @@ struct SkyMaps {
     std::unique_ptr<GpuImage> air;       ///< clear air by direction
     std::unique_ptr<GpuImage> cube;      ///< the sky or the environment, with mips
     std::unique_ptr<GpuImage> specular;  ///< as GGX lobes see it, one roughness a mip
+    std::unique_ptr<GpuBuffer> quads;    ///< of specular and of the air's level of cube (sky_quads_io.h)
     std::unique_ptr<GpuImage> env_brdf;  ///< scale and offset of F0
     std::unique_ptr<GpuBuffer> light;    ///< shared::SkyLight
     std::unique_ptr<GpuBuffer> tiles;    ///< of the cube that are drawn next
@@ -51,7 +52,7 @@ shared::SkyParams sky_params(const Frame& frame, SkyMaps& maps);
 
 // The analytic sky as light: clear air, clouds, land. What is seen of it is drawn by add_seen_sky.
 //
-//   writes   air where it is not that of maps.drawn, cube from the level on that light reads, specular
+//   writes   air where it is not that of maps.drawn, cube from the level on that light reads, specular, quads
 void add_analytic_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params);
 
 // The same sky as the background shows it.

@@ -9,7 +9,7 @@
 // sky_air, env_brdf: no map is read
 #define SKY_ALONE_TARGET 0
 #define SKY_AGAIN 1  // of sky_air: light scattered more than once
-// sky_cube, environment_cube, sky_specular, sky_light
+// sky_cube, environment_cube, sky_specular, sky_light, sky_quads
 #define SKY_SOURCE 0
 #define SKY_TARGET 1
 // sky_cube: the tiles of the first level that are drawn, SKY_TILE texels a side; face, row and place in it
@@ -24,6 +24,11 @@ struct PrefilterParams {
     float source_size;
     float source_first;  // level: finer ones need not be there
     float source_mips;
+};
+
+// sky_quads
+struct SkyQuadsParams {
+    int begin;  // of the level
 };
 
 // environment_cube
