@@ -125,7 +125,10 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 3)
         return probe_material(apply_water(m, vec2(b.z, b.w), c.x, vec4(c.y, c.y, c.y, c.z), c.w));
-    if (kind == 4) return probe_material(apply_snow(m, b.z, splat3(c.x), splat3(0.02f), c.y, c.z));
+    if (kind == 4) {
+        const vec3 color = splat3(c.x * melting_snow(b.z, c.w));
+        return probe_material(apply_snow(m, b.z, color, splat3(0.02f), melting_smoothness(c.y, b.z, c.w), c.z));
+    }
     if (kind == 5) return probe_material(apply_frost(m, b.z));
     if (kind == 6) {
         const RippleLayer l = ripple_layer(int(3.999f * a.x), a.y, 10.0f * a.z, 0.5f + a.w);

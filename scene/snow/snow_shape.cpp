@@ -9,7 +9,8 @@ namespace petrichor::scene {
 
 float step_closed(float step_m, float depth_m)
 {
-    return depth_m > 0.0f ? 1.0f - shared::smooth_edge(1.0f, 1.75f, step_m / depth_m) : 0.0f;
+    if (!(step_m < 1.75f * depth_m)) return 0.0f;
+    return 1.0f - shared::smooth_edge(1.0f, 1.75f, step_m / depth_m);
 }
 
 namespace {
@@ -53,9 +54,10 @@ float filled_m(const SnowCaps::Point& p, float depth_m)
 float fallen_m(const SnowCaps::Point& p, float depth_m)
 {
     const float drawn = drawn_snow_m(depth_m) * p.uneven;
-    const float inside = shared::smooth_edge(0.05f, 0.25f, p.edge_m);
-    const float deep = shared::smooth_edge(0.0f, 0.17f, drawn) * (inside + step_closed(p.drop_m, drawn) * (1.0f - inside));
-    return drawn * (p.share + deep * (p.broad - p.share));
+    if (p.share == p.broad) return drawn * p.share;
+    const float inside = p.edge_m < 0.25f ? shared::smooth_edge(0.05f, 0.25f, p.edge_m) : 1.0f;
+    const float open = inside < 1.0f ? inside + step_closed(p.drop_m, drawn) * (1.0f - inside) : 1.0f;
+    return drawn * (p.share + shared::smooth_edge(0.0f, 0.17f, drawn) * open * (p.broad - p.share));
 }
 
 // How far in a cap is rounded off.
@@ -91,18 +93,18 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     shape.thickness_m.reserve(count);
     shape.deep_m.reserve(count);
     // As if nothing lay beyond the edges.
-    std::vector<float> fallen(count), bare(count), top(count);
+    std::vector<float> fallen(count), closing(count), bare(count), top(count);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
         fallen[i] = fallen_m(p, depth_m[i]);
-        const float closed = step_closed(p.drop_m, fallen[i]);
+        const float closed = closing[i] = step_closed(p.drop_m, fallen[i]);
         const float open = lesser(std::min(fallen[i], kMostOverWidth * p.support_m), p.most_m);
         const float held = open + closed * (fallen[i] - open);
-        const float round = rounded(p.edge_m / width_m(p, held));
+        const float round = p.edge_m < held ? rounded(p.edge_m / width_m(p, held)) : 1.0f;
         bare[i] = p.base_m.y + held * (round + closed * (1.0f - round));
         top[i] = bare[i] + filled_m(p, fallen[i]);
     }
-    std::vector<bool> sunk_rim(count, false);
+    std::vector<std::uint8_t> sunk_rim(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
         // How far what lies beyond the edge reaches over it.
@@ -110,7 +112,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const float over = std::clamp(beyond, 0.0f, fallen[i]);
         // Or how far there is one sheet over the step, where as much lies at its foot.
         const float foot = p.beyond != SnowCaps::kNone ? bare[p.beyond] - caps.points[p.beyond].base_m.y : 0.0f;
-        const float closed = step_closed(p.drop_m, fallen[i]) * shared::smooth_edge(0.35f, 0.8f, foot / std::max(fallen[i], 1.0e-6f));
+        const float closed = closing[i] > 0.0f ? closing[i] * shared::smooth_edge(0.35f, 0.8f, foot / fallen[i]) : 0.0f;
         const float open = lesser(std::min(fallen[i], kMostOverWidth * p.support_m + over), p.most_m + over);
         const float held = open + closed * (fallen[i] - open);
         const bool rim = p.edge_m < kAtRim_m;
@@ -126,7 +128,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const float thickness = held * (round_low + lost * (1.0f - round_low)) * (round + kept * (1.0f - round)) * (round_slot + slot * (1.0f - round_slot));
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
-        at.y += thickness - sunk + filled_m(p, fallen[i]);
+        at.y += thickness - sunk + (top[i] - bare[i]);
         const float bridged = p.slot_m < 1.0e-3f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;
@@ -137,7 +139,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
             const float out = bank * std::min(step / kBankSlope, kMostOut_m);
             at.x += p.out.x * out;
             at.z += p.out.y * out;
-            sunk_rim[i] = bank > 0.5f;
+            sunk_rim[i] = bank > 0.5f ? 1 : 0;
         } else if (s < 1.0f && held > 0.0f) {
             const float bulge = 3.5f * std::sqrt(s) * (1.0f - s) * (1.0f - s);
             const float out = std::min(kOverhang * held, kMostOverhang_m) * bulge * (1.0f - kept);
@@ -150,25 +152,25 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         shape.thickest_m = std::max(shape.thickest_m, thickness);
     }
     shape.normals.assign(count, vec3(0.0f));
-    const auto each_face = [&](const auto& visit) {
-        for (std::size_t k = 0; k + 2 < caps.indices.size(); k += 3) {
-            visit(std::array{caps.corner_points[caps.indices[k]], caps.corner_points[caps.indices[k + 1]],
-                             caps.corner_points[caps.indices[k + 2]]});
-        }
-    };
     // What sinks into the snow at its foot is not seen, and bends no light at the edge.
-    each_face([&](const std::array<std::uint32_t, 3>& t) {
-        if (sunk_rim[t[0]] || sunk_rim[t[1]] || sunk_rim[t[2]]) return;
+    std::vector<std::array<std::uint32_t, 3>> sinking;
+    for (std::size_t k = 0; k + 2 < caps.indices.size(); k += 3) {
+        const std::array t{caps.corner_points[caps.indices[k]], caps.corner_points[caps.indices[k + 1]],
+                           caps.corner_points[caps.indices[k + 2]]};
+        if (sunk_rim[t[0]] || sunk_rim[t[1]] || sunk_rim[t[2]]) {
+            sinking.push_back(t);
+            continue;
+        }
         const vec3 face = glm::cross(shape.positions[t[1]] - shape.positions[t[0]], shape.positions[t[2]] - shape.positions[t[0]]);
         for (const std::uint32_t i : t) shape.normals[i] += face;
-    });
-    each_face([&](const std::array<std::uint32_t, 3>& t) {
+    }
+    for (const auto& t : sinking) {
         for (std::size_t c = 0; c < 3; ++c) {
             if (!sunk_rim[t[c]]) continue;
             for (const std::size_t o : {(c + 1) % 3, (c + 2) % 3})
                 if (!sunk_rim[t[o]]) shape.normals[t[c]] += shape.normals[t[o]];
         }
-    });
+    }
     for (vec3& n : shape.normals) {
         const float length = glm::length(n);
         n = length > 1.0e-12f ? n / length : vec3(0.0f, 1.0f, 0.0f);
