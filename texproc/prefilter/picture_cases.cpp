@@ -1,4 +1,5 @@
 // Which pictures are taken: views, lights, and what is tried under them.
+#include <iterator>
 #include <string>
 
 #include "texproc/prefilter/picture.h"
@@ -17,7 +18,7 @@ PictureOptions reference_pictures()
     return o;
 }
 
-PictureOptions design_pictures(bool quick)
+PictureOptions design_pictures(bool quick, SurfaceClass surface)
 {
     PictureOptions o;
     o.frames = 2;
@@ -61,19 +62,40 @@ PictureOptions design_pictures(bool quick)
                            .rows = 64,
                            .step_right_m = 0.005,
                            .step_ahead_m = 0.019});
-        // A ring of suns, low and high in turn, another ahead.
+        // Plain trilinear filtering, of which little is enough.
+        PictureView one_tap = o.views.front();
+        one_tap.name += ", one tap";
+        one_tap.rows = 40;
+        one_tap.taps = 1;
+        o.views.push_back(one_tap);
+        // A ring of suns, low and high in turn, another ahead; beside those not ahead there is a sky, without
+        // which metal would be black there.
         constexpr float kRing[][3] = {
             {0.26f, 0.97f, 0.45f},  {0.83f, 0.56f, 1.1f},    {0.97f, -0.26f, 0.45f},
             {0.56f, -0.83f, 1.1f},  {-0.26f, 0.97f, 1.1f},   {-0.83f, 0.56f, 0.45f},
             {-0.97f, -0.26f, 1.1f}, {-0.56f, -0.83f, 0.45f}, {-0.1f, 1.0f, 0.3f}};
-        for (const auto& sun : kRing)
-            o.lights.push_back({.name = "sun " + std::to_string(o.lights.size()),
-                                .to_light = {sun[0], sun[1], sun[2]}});
+        constexpr float kSky[] = {0.0f, 0.07f, 0.11f, 0.16f, 0.0f, 0.12f, 0.13f, 0.09f, 0.0f};
+        for (std::size_t i = 0; i < std::size(kRing); ++i)
+            o.lights.push_back({.name = "sun " + std::to_string(i),
+                                .to_light = {kRing[i][0], kRing[i][1], kRing[i][2]},
+                                .sky = kSky[i]});
     }
     o.lights.push_back({.name = "window", .to_light = {-0.1f, 1.0f, 0.5f}, .alpha = 0.12f});
-    for (int view = 0; view < static_cast<int>(o.views.size()); ++view)
-        for (int light = 0; light < static_cast<int>(o.lights.size()); ++light)
-            o.cases.push_back({view, light, false});
+    if (!quick) o.lights.push_back({.name = "sky", .sun = 0.0f, .sky = 1.0f});
+    constexpr int kDown = 2, kOneTap = 4, kWindow = 9, kSkyAlone = 10;
+    for (int view = 0; view < static_cast<int>(o.views.size()); ++view) {
+        for (int light = 0; light < static_cast<int>(o.lights.size()); ++light) {
+            const bool some = light % 2 == 1 || light == 0;
+            const bool paint = quick || surface != SurfaceClass::Metal;
+            // From above the sky lights all slopes of paint alike: an error that nobody sees.
+            if (!quick && view == kDown && light == kSkyAlone) continue;
+            if (paint && (view != kOneTap || some)) o.cases.push_back({view, light, false});
+        }
+        const bool metal = !quick && surface != SurfaceClass::Paint;
+        for (int light = 1; metal && light <= kSkyAlone; ++light)
+            if (light != kWindow && (view != kOneTap || light % 3 == 2))
+                o.cases.push_back({view, light, true});
+    }
     return o;
 }
 
