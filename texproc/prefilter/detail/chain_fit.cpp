@@ -28,7 +28,7 @@ constexpr float kFlicker =
     0.5f;  // what changes between two moments counts so much beside all of the error
 constexpr float kKeep = 0.9f, kKeepSquare = 0.99f;  // of Adam (Kingma & Ba 2015)
 constexpr float kNothing2 = 3e-6f;                  // a mean square of errors that nobody sees
-constexpr float kWorseMetal = 4.0f;
+constexpr float kWorseMetal = 2.0f;
 constexpr float kDegree = 0.0174532925f, kTurn = 6.28318531f;
 
 class Dice {
