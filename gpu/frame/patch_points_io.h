@@ -23,5 +23,6 @@
 #define PATCH_POINTS_GRADIENT 7
 #define PATCH_POINTS_TARGET 8
 #define PATCH_POINTS_NEAR 9
+#define PATCH_POINTS_LIST 10  // gpu/frame/pixel_list_io.h: of second points
 
 #endif
