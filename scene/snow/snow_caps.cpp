@@ -461,7 +461,9 @@ void narrow_bridges(SnowCaps& caps, const std::vector<detail::Joint>& joints)
     for (const detail::Joint& joint : joints) {
         const SnowCaps::Point &here = caps.points[joint.here], &there = caps.points[joint.beyond];
         const vec2 way(there.base_m.x - here.base_m.x, there.base_m.z - here.base_m.z);
-        meets[joint.here] = meets[joint.here] || std::abs(glm::dot(way, here.bridge_m)) < kMeet_m * glm::length(here.bridge_m);
+        const float length = glm::length(here.bridge_m);
+        const bool opposite = glm::dot(here.bridge_m, there.bridge_m) < -0.7f * length * glm::length(there.bridge_m);
+        meets[joint.here] = meets[joint.here] || (opposite && std::abs(glm::dot(way, here.bridge_m)) < kMeet_m * length);
     }
     for (std::size_t i = 0; i < meets.size(); ++i)
         if (meets[i]) caps.points[i].bridge_m *= 0.5f;

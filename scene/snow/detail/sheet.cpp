@@ -19,6 +19,9 @@ constexpr float kStiff = 0.01f;    // of the plane through a circle, over its ra
 constexpr float kCovered_m = 0.06f; // the road under a lid, a gutter under bars
 constexpr float kShelter_m = SnowCaps::kFillDepths_m[2];  // around which shelter is as one
 constexpr float kBroad_m = SnowCaps::kFillDepths_m[3];  // whose surface tells how steep deep snow is
+constexpr float kBuries_m = 0.08f;  // what lies so far over something all around leaves it no snow
+constexpr float kRelief_m = 0.02f;
+constexpr float kMostFill = 0.6f;   // of the depth, up or down
 constexpr float kNear_m = 14.0f;
 constexpr float kCell_m = 0.025f;
 constexpr float kFarCell_m = 0.1f;
@@ -124,7 +127,7 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
     const int stride = reach > 9.0f ? 2 : 1;
     const int x0 = std::max(static_cast<int>(std::ceil(at.x - reach)), 0), x1 = std::min(static_cast<int>(std::floor(at.x + reach)), width_ - 1);
     const int z0 = std::max(static_cast<int>(std::ceil(at.y - reach)), 0), z1 = std::min(static_cast<int>(std::floor(at.y + reach)), height_ - 1);
-    float weight = 0.0f, height = 0.0f, open = 0.0f;
+    float weight = 0.0f, height = 0.0f, open = 0.0f, bare = 0.0f, all = 0.0f;
     vec2 middle(0.0f), lean(0.0f);
     float xx = 0.0f, xz = 0.0f, zz = 0.0f;
     for (int z = z0; z <= z1; z += stride) {
@@ -132,21 +135,25 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
             const vec2 way = (vec2(static_cast<float>(x), static_cast<float>(z)) - at) / reach;
             const float in = 1.0f - glm::dot(way, way);
             if (!(in > 0.0f)) continue;
+            all += in * in;
             const std::uint32_t head = first_[static_cast<std::size_t>(z) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
             if (head == kNoLayer) continue;
             const Layer* own = &layers_[head];
             for (std::uint32_t k = own->next; k != kNoLayer; k = layers_[k].next)
                 if (std::abs(layers_[k].height_m - own_m) < std::abs(own->height_m - own_m)) own = &layers_[k];
             float here = own->height_m;
+            bool covered = false;
             for (std::uint32_t k = head; k != kNoLayer; k = layers_[k].next) {
                 const float over = layers_[k].height_m;
                 if (over < own_m + highest) here = std::max(here, over - kUnder_m);
+                covered = covered || (over > own_m + kBuries_m && over < own_m + kDeepestSnow_m);
             }
             const float step = std::abs(here - own_m);
             const float w = in * in * step_closed(step, depth_m);
             weight += w;
             height += w * (here - own_m);
             open += w * own->open;
+            bare += covered ? 0.0f : w;
             middle += w * way;
             lean += w * (here - own_m) * way;
             xx += w * way.x * way.x;
@@ -164,7 +171,7 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
     xz = xz / weight - middle.x * middle.y;
     const float det = xx * zz - xz * xz;
     const vec2 slope(glm::dot(vec2(zz, -xz), lean) / det, glm::dot(vec2(-xz, xx), lean) / det);
-    return {own_m + height - glm::dot(slope, middle), slope / radius, open / weight};
+    return {own_m + height - glm::dot(slope, middle), slope / radius, open / weight, bare / weight, weight / all};
 }
 
 void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& joints, const Tracer& tracer, const SnowCapOptions& options)
@@ -180,22 +187,28 @@ void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& 
     for (std::size_t i = 0; i < caps.points.size(); ++i) {
         SnowCaps::Point& point = caps.points[i];
         const Sheet& sheet = eye_m(point.base_m) < kNear_m - 1.0f ? near : far;
-        const vec2 place = vec2(point.base_m.x, point.base_m.z) + point.bridge_m;
         const float dip = 1.0f - shared::smooth_edge(0.0f, kDipWidth_m, away[i]);
         const float inside = shared::smooth_edge(0.0f, kAtEdge_m, point.edge_m);
         float open = point.broad, broad = point.share;
+        const vec2 here(point.base_m.x, point.base_m.z);
+        const float seen = shared::smooth_edge(0.02f, 0.2f, sheet.smoothed(here, point.base_m.y, SnowCaps::kFillDepths_m[0]).bare);
         for (std::size_t k = 0; k < SnowCaps::kFills; ++k) {
             const float depth = SnowCaps::kFillDepths_m[k];
-            const Sheet::Smoothed there = sheet.smoothed(place, point.base_m.y, depth);
+            const Sheet::Smoothed there = sheet.smoothed(here + point.bridge_m, point.base_m.y, depth);
             const float closed = step_closed(point.drop_m, depth);
             const float counts = inside + closed * (1.0f - inside);
-            float fill = counts * (there.height_m - point.base_m.y);
+            // Of posts and small things most of the circle is not: they keep their shape.
+            const float most = std::max(kRelief_m, kMostFill * depth);
+            const float whole = shared::smooth_edge(0.35f, 0.6f, there.whole);
+            float fill = counts * whole * std::clamp(there.height_m - point.base_m.y, -most, most);
             fill -= dip * (k == 0 ? 0.5f : 1.0f) * (kDips_m + std::max(fill, 0.0f));
             point.fill_m[k] = fill;
             if (depth == kShelter_m) open = there.open;
             if (depth == kBroad_m) broad = open * snow_on_slope(1.0f / std::sqrt(1.0f + glm::dot(there.slope, there.slope)));
         }
-        point.broad = broad;
+        // What lies below something else all around, as a wall below its coping, carries none.
+        point.share *= seen;
+        point.broad = seen * broad;
     }
 }
 

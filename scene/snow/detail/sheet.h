@@ -21,6 +21,8 @@ public:
         float height_m;
         glm::vec2 slope{0.0f};  ///< rise along x and z
         float open = 0.0f;      ///< mean of what shelter leaves
+        float bare = 1.0f;      ///< share of it that nothing lies over
+        float whole = 0.0f;     ///< share of the circle that is such ground
     };
 
     /// near: whether a place is of interest; others are left out. The cell grows where there would be too many.
