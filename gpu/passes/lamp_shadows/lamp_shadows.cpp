@@ -19,7 +19,8 @@ const std::array<std::array<glm::vec3, 3>, 6> kFaces{{
     {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}},
 }};
 
-// A face that no ray of the lamp meets is not asked: a spot's cone, or a rectangle's front.
+// A face that no ray of the lamp meets has no casters: a spot's cone, or a rectangle's front. It is emptied all the same:
+// some pixels ask for it, and saw what the memory held before, or a former lamp of the same number.
 bool is_lit(const Light& lamp, const glm::vec3& along)
 {
     if (lamp.kind == LightKind::Point || lamp.both_sides) return true;
@@ -86,9 +87,10 @@ void LampShadows::add(FrameGraph& graph, const GpuScene& scene, SeenTriangles& t
         if (drawn_[i] == wanted) continue;
         drawn_[i] = wanted;
         for (int face = 0; face < 6; ++face) {
-            if (!is_lit(lamp, kFaces[static_cast<std::size_t>(face)][2])) continue;
+            const bool lit = is_lit(lamp, kFaces[static_cast<std::size_t>(face)][2]);
             const glm::mat4 view = lamp_face_view(wanted.position_m, face);
-            const Casters casters = casters_in(triangles, scene, view, LAMP_MAP_SIZE, Falls::Lamp);
+            const Casters casters =
+                lit ? casters_in(triangles, scene, view, LAMP_MAP_SIZE, Falls::Lamp) : Casters{};
             graph.add(DrawPass{
                 .name = "lamp_shadows",
                 .colors = {},
@@ -96,8 +98,8 @@ void LampShadows::add(FrameGraph& graph, const GpuScene& scene, SeenTriangles& t
                 .width = LAMP_MAP_SIZE,
                 .height = LAMP_MAP_SIZE,
                 .bindings = {},
-                .record = [&scene, view, casters](PassContext& pass) {
-                    draw_casters(pass, scene, view, Falls::Lamp, casters);
+                .record = [&scene, view, casters, lit](PassContext& pass) {
+                    if (lit) draw_casters(pass, scene, view, Falls::Lamp, casters);
                 }});
         }
     }
