@@ -53,7 +53,9 @@ PictureOptions design_pictures(bool quick, SurfaceClass surface)
                     {.name = "from the right", .to_light = {1.0f, 0.1f, 0.6f}},
                     {.name = "behind", .to_light = {-0.5f, -0.9f, 0.9f}}};
     } else {
-        o.views.back().pitch_deg = 52.0;  // what is fitted is seen from 9 to 60 degrees
+        // What is fitted is seen from 9 to 60 degrees, and pixels here are as large as in the other views.
+        o.views.back().pitch_deg = 52.0;
+        o.views.back().field_of_view_deg = 22.0;
         // As fine as a large picture, but less of it.
         o.views.push_back({.name = "part",
                            .height_m = 1.7,
