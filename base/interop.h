@@ -1,7 +1,11 @@
-// The bridge between C++ and GLSL: a header that includes this one and keeps to the common subset
-// compiles as both. Common subset: no swizzles (vec3(v.x, v.y, v.z)), float literals with f,
-// results returned as a struct, no bool in buffers, `SHARED_CONST float NAME = 1.0f;` for
-// constants.
+// The bridge between C++, GLSL and HLSL: a header that includes this one and keeps to the common
+// subset compiles as all three. Common subset: no swizzles (vec3(v.x, v.y, v.z)), float literals
+// with f, results returned as a struct, no bool in buffers, `SHARED_CONST float NAME = 1.0f;` for
+// constants; splat3(x) for the vector of one number, atan2(y, x) for the angle of two, no
+// constructors of structs, no arrays but members, no names that a language keeps for itself (linear,
+// point, sample ...). No formula takes a matrix: their rows and columns are told apart nowhere alike.
+//
+// As HLSL where PETRICHOR_HLSL is defined or the compiler says __HLSL_VERSION.
 #ifndef PETRICHOR_BASE_INTEROP_H
 #define PETRICHOR_BASE_INTEROP_H
 
@@ -60,7 +64,60 @@ using glm::smoothstep;
 using glm::sqrt;
 using glm::step;
 using glm::uintBitsToFloat;
+
+constexpr vec2 splat2(float x)
+{
+    return vec2(x);
+}
+constexpr vec3 splat3(float x)
+{
+    return vec3(x);
+}
+constexpr vec4 splat4(float x)
+{
+    return vec4(x);
+}
+inline float atan2(float y, float x)
+{
+    return glm::atan(y, x);
+}
 }  // namespace petrichor::shared_names
+
+#elif defined(PETRICHOR_HLSL) || defined(__HLSL_VERSION)
+
+#define SHARED_BEGIN
+#define SHARED_END
+#define SHARED_FN
+#define SHARED_CONST static const
+#define SHARED_HAS_SATURATE
+
+#define vec2 float2
+#define vec3 float3
+#define vec4 float4
+#define ivec2 int2
+#define ivec3 int3
+#define ivec4 int4
+#define uvec2 uint2
+#define uvec3 uint3
+#define uvec4 uint4
+#define floatBitsToUint asuint
+#define fract frac
+#define inversesqrt rsqrt
+#define mix lerp
+#define uintBitsToFloat asfloat
+
+float2 splat2(float x)
+{
+    return float2(x, x);
+}
+float3 splat3(float x)
+{
+    return float3(x, x, x);
+}
+float4 splat4(float x)
+{
+    return float4(x, x, x, x);
+}
 
 #else
 
@@ -68,6 +125,11 @@ using glm::uintBitsToFloat;
 #define SHARED_END
 #define SHARED_FN
 #define SHARED_CONST const
+
+#define splat2(x) vec2(x)
+#define splat3(x) vec3(x)
+#define splat4(x) vec4(x)
+#define atan2(y, x) atan(y, x)
 
 #endif
 

@@ -14,6 +14,7 @@ namespace petrichor::cli {
 // does the work. A callback throws petrichor::Error for what the user can mend.
 void add_bench(CLI::App& app);
 void add_doctor(CLI::App& app);
+void add_headers(CLI::App& app);
 void add_init(CLI::App& app);
 /// words: the command line as typed, for the message that says how to go on after Ctrl-C.
 void add_render(CLI::App& app, std::vector<std::string> words);

@@ -136,6 +136,7 @@ int run(int argc, char** argv)
     cli::add_render(app, std::vector<std::string>(argv, argv + argc));
     cli::add_bench(app);
     cli::add_doctor(app);
+    cli::add_headers(app);
     cli::add_init(app);
     cli::add_scene(app);
     cli::add_simulate(app);

@@ -2,6 +2,7 @@
 #   P/bin/petrichor                  the program, which finds its data at ../share/petrichor
 #   P/lib/libpetrichor_*.a           one library a room, with lib/cmake/petrichor for find_package
 #   P/include/petrichor/ROOM/*.h     the public headers, formulas and shader texts
+#   P/include/petrichor/petrichor.{glsl,hlsl}  the formulas for the shaders of other engines
 #   P/share/petrichor                scenarios and presets
 include(CMakePackageConfigHelpers)
 
@@ -18,6 +19,14 @@ foreach(room IN LISTS rooms)
     install(DIRECTORY ${room} DESTINATION ${petrichor_headers}
         FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN "*_lookup.inc" PATTERN "*_search.inc" PATTERN "air_radiance.inc" PATTERN "detail" EXCLUDE)
 endforeach()
+# One file a language, for engines that find no includes (docs/shaders.md).
+set(shader_library ${PROJECT_BINARY_DIR}/shader_library)
+add_custom_command(OUTPUT ${shader_library}/petrichor.glsl ${shader_library}/petrichor.hlsl
+    COMMAND petrichor headers --language glsl hlsl -o ${shader_library}
+    DEPENDS petrichor VERBATIM)
+add_custom_target(petrichor_shader_library ALL
+    DEPENDS ${shader_library}/petrichor.glsl ${shader_library}/petrichor.hlsl)
+install(FILES ${shader_library}/petrichor.glsl ${shader_library}/petrichor.hlsl DESTINATION ${petrichor_headers})
 install(TARGETS petrichor_film_weather EXPORT petrichor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT petrichor NAMESPACE petrichor:: DESTINATION ${petrichor_package}
     FILE petrichorTargets.cmake)

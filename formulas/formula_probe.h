@@ -56,7 +56,7 @@ SHARED_CONST int kProbeKinds = 61;
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
 {
-    return -vec4(3.0f, 2.5f, 2.0f, 1.5f) - vec4(0.1f * float((index * 7) % 13));
+    return -vec4(3.0f, 2.5f, 2.0f, 1.5f) - splat4(0.1f * float((index * 7) % 13));
 }
 
 #include "formulas/light/air_radiance.inc"
@@ -66,7 +66,7 @@ SHARED_FN float probe_light_map(vec4 a, vec4 b)
     const float fade = light_map_fade(100.0f * a.w, 20.0f, 40.0f);
     const vec3 sides = vec3(b.x, b.y, b.z + 0.1f);
     const vec3 toward = light_map_direction(sides);
-    const vec3 near_map = directional_light_map(vec3(1.0f), sides, vec3(toward.y, toward.x, toward.z));
+    const vec3 near_map = directional_light_map(splat3(1.0f), sides, vec3(toward.y, toward.x, toward.z));
     const vec3 both = dual_light_map(near_map, vec3(a.x, a.y, a.z), fade);
     return both.x + both.y + both.z;
 }
@@ -76,6 +76,16 @@ SHARED_FN vec3 probe_direction(float u, float v)
     const float y = 2.0f * u - 1.0f;
     const float level = sqrt(max(1.0f - y * y, 0.0f));
     return vec3(level * cos(6.2831853f * v), y, level * sin(6.2831853f * v));
+}
+
+SHARED_FN MarchedShape probe_shape(int kind, int iterations, float power, vec3 half_m)
+{
+    MarchedShape s;
+    s.kind = kind;
+    s.iterations = iterations;
+    s.power = power;
+    s.half_m = half_m;
+    return s;
 }
 
 SHARED_FN vec4 probe_material(WeatheredMaterial m)
@@ -88,7 +98,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
 {
     WeatheredMaterial m;
     m.albedo = vec3(a.x, a.y, a.z);
-    m.specular = vec3(0.04f + 0.6f * a.w);
+    m.specular = splat3(0.04f + 0.6f * a.w);
     m.smoothness = b.x;
     m.occlusion = b.y;
     m.emission_scale = 1.0f;
@@ -115,7 +125,10 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 3)
         return probe_material(apply_water(m, vec2(b.z, b.w), c.x, vec4(c.y, c.y, c.y, c.z), c.w));
-    if (kind == 4) return probe_material(apply_snow(m, b.z, vec3(c.x), vec3(0.02f), c.y, c.z));
+    if (kind == 4) {
+        const vec3 color = splat3(c.x * melting_snow(b.z, c.w));
+        return probe_material(apply_snow(m, b.z, color, splat3(0.02f), melting_smoothness(c.y, b.z, c.w), c.z));
+    }
     if (kind == 5) return probe_material(apply_frost(m, b.z));
     if (kind == 6) {
         const RippleLayer l = ripple_layer(int(3.999f * a.x), a.y, 10.0f * a.z, 0.5f + a.w);
@@ -132,13 +145,13 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 9) {
         const float alpha = 0.05f + 0.95f * a.y;
         return vec4(ggx_distribution(a.x, alpha), ggx_visibility(a.x, a.z, alpha),
-                    schlick_fresnel(vec3(a.w), b.x).y,
+                    schlick_fresnel(splat3(a.w), b.x).y,
                     light_attenuation(0.2f + 5.0f * b.y, 6.0f * b.z));
     }
     if (kind == 10) {
         const vec3 r =
             shade_direct(probe_direction(a.x, a.y), probe_direction(a.z, a.w),
-                         probe_direction(b.x, b.y), vec3(b.z), vec3(0.04f), 0.1f + 0.9f * b.w);
+                         probe_direction(b.x, b.y), splat3(b.z), splat3(0.04f), 0.1f + 0.9f * b.w);
         return vec4(r.x, r.y, r.z, spot_attenuation(c.x, 0.9f, 0.5f * c.y));
     }
     if (kind == 11) {
@@ -158,7 +171,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         DryMaterial dry;
         dry.base_color = vec3(a.x, a.y, a.z);
         dry.metallic = a.w;
-        dry.f0 = vec3(0.04f);
+        dry.f0 = splat3(0.04f);
         dry.roughness = b.x;
         dry.occlusion = b.y;
         dry.porosity = b.z;
@@ -177,7 +190,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         moment.water_to_snow = a.y;
         WeatherLook look;
         look.snow_color = vec3(0.92f, 0.94f, 0.97f);
-        look.snow_specular = vec3(0.02f);
+        look.snow_specular = splat3(0.02f);
         return probe_material(apply_weather(dry, state, moment, look));
     }
     if (kind == 17) {
@@ -232,7 +245,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         layers.transmitted = 0.5f * c.y;
         layers.other_normal = normalize(n + 0.3f * layers.tangent * c.w);
         const vec3 r = shade_layers(n, probe_direction(a.z, a.w), probe_direction(b.x, b.y),
-                                    vec3(b.z), vec3(0.9f * b.z), vec3(0.04f), 0.3f + 0.7f * b.w, layers);
+                                    splat3(b.z), splat3(0.9f * b.z), splat3(0.04f), 0.3f + 0.7f * b.w, layers);
         return vec4(r.x, r.y, r.z, sheen_albedo(a.z, b.w));
     }
     if (kind == 34) {
@@ -257,11 +270,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 v = probe_direction(a.z, a.w);
         const vec3 l = probe_direction(b.x, b.y);
         const float rough = 0.3f + 0.7f * b.w;
-        const vec3 lux = shade_lux(n, v, l, vec3(b.z), vec3(0.04f), rough);
-        const vec3 hair = shade_hair(n, tangent_at(n, 3.0f * c.x), v, l, vec3(b.z), vec3(c.y), rough,
+        const vec3 lux = shade_lux(n, v, l, splat3(b.z), splat3(0.04f), rough);
+        const vec3 hair = shade_hair(n, tangent_at(n, 3.0f * c.x), v, l, splat3(b.z), splat3(c.y), rough,
                                      0.3f * c.z);
-        return vec4(shade_lwrp(n, v, l, vec3(b.z), vec3(0.04f), rough * rough).x +
-                        shade_burley(n, v, l, vec3(b.z), vec3(0.04f), rough).x,
+        return vec4(shade_lwrp(n, v, l, splat3(b.z), splat3(0.04f), rough * rough).x +
+                        shade_burley(n, v, l, splat3(b.z), splat3(0.04f), rough).x,
                     lux.y, hair.z, lazarov_split_sum(c.w, b.w).x + lazarov_split_sum(c.w, b.w).y);
     }
     if (kind == 37) {
@@ -271,12 +284,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         t.distortion = a.z;
         t.scale = 8.0f * a.w;
         t.shadow = b.x;
-        t.color = vec3(1.0f);
+        t.color = splat3(1.0f);
         const vec3 ring = skin_ring(2.0f * b.y - 1.0f, b.z);
         return vec4(light_through(t, probe_direction(b.w, c.x), probe_direction(c.y, c.z),
                                   probe_direction(c.w, a.x)) +
                         shadow_through(t, c.w),
-                    ring.x, ring.z, scattered_albedo(vec3(a.x), vec3(a.y), 0.5f * a.z, 10.0f * a.w, b.x).y);
+                    ring.x, ring.z, scattered_albedo(splat3(a.x), splat3(a.y), 0.5f * a.z, 10.0f * a.w, b.x).y);
     }
     if (kind == 14) {
         const vec3 d = probe_direction(a.x, a.y);
@@ -345,11 +358,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const SnowCover s =
             snow_cover_of_vertices(a.x, 2.0f * a.y - 1.0f, 2.0f * a.z, a.w, b.x, b.y, 0.2f * b.z);
         WeatherLook look;
-        look.snow_scatter_color = vec3(b.z);
+        look.snow_scatter_color = splat3(b.z);
         look.snow_scatter_bias = 0.5f * b.w;
         look.snow_scatter_contraction = 1.0f + 9.0f * c.x;
         return vec4(s.snow, s.melt, snow_on_grass(a.x, a.y, a.z, a.w),
-                    snow_scattered(vec3(c.y), look, 2.0f * c.z - 1.0f, c.w).x);
+                    snow_scattered(splat3(c.y), look, 2.0f * c.z - 1.0f, c.w).x);
     }
     if (kind == 40) {
         const vec3 film = thin_film_f0(1.0f + a.x, 200.0f * a.y, vec3(0.9f * b.x, 0.9f * b.y, 0.9f * b.z),
@@ -358,14 +371,15 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(film.x, film.z, fringe.x, fringe.y + fringe.z);
     }
     if (kind == 41) {
-        const vec3 p = 4.0f * vec3(a.x, a.y, a.z) - vec3(2.0f);
-        const vec3 low = -vec3(b.x, b.y, b.z) - vec3(0.1f);
-        const vec3 high = vec3(b.y, b.z, b.w) + vec3(0.1f);
+        const vec3 p = 4.0f * vec3(a.x, a.y, a.z) - splat3(2.0f);
+        const vec3 low = -vec3(b.x, b.y, b.z) - splat3(0.1f);
+        const vec3 high = vec3(b.y, b.z, b.w) + splat3(0.1f);
         const vec3 way = box_projected(p, probe_direction(c.x, c.y), low, high, 0.5f * (low + high));
         const float share = reflection_probe_share(p, low, high, 2.0f * c.z);
         const vec2 blend = reflection_probe_blend(vec3(2.0f, 1.0f + c.w, 1.0f));
         const vec3 rough = rough_mirror_direction(probe_direction(b.x, b.y), probe_direction(c.x, c.y), a.w);
-        const vec2 bands = probe_bands_of_word(probe_band_word(2.0f * vec2(a.x, c.z) - vec2(1.0f))) * (1.0f / kProbeBandOne);
+        const uint band_word = probe_band_word(2.0f * vec2(a.x, c.z) - splat2(1.0f));
+        const vec2 bands = probe_bands_of_word(band_word) * (1.0f / kProbeBandOne);
         return vec4(way.x + way.y, way.z + rough.x, reflection_probe_weight(share, 1.0f + a.w, p) + bands.x,
                     blend.y + ggx_band(int(8.999f * b.z), c.w) + bands.y);
     }
@@ -394,12 +408,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         WaterFilm film = water_film(dry, state, moment);
         film.normal = probe_direction(c.x, c.y);
         film.roughness = 0.2f + 0.8f * film.roughness;
-        const vec3 r = under_film(vec3(c.z), film, probe_direction(a.x, a.y), probe_direction(b.x, c.w));
+        const vec3 r = under_film(splat3(c.z), film, probe_direction(a.x, a.y), probe_direction(b.x, c.w));
         m.metallic = 0.0f;
         return vec4(r.x, film.share, film.level + film.roughness, below_film(m, c.w).specular.x);
     }
     if (kind == 45) {
-        const LensDrop drop = lens_drops(vec2(a.x, a.y) - vec2(0.5f), a.z, 30.0f * a.w);
+        const LensDrop drop = lens_drops(vec2(a.x, a.y) - splat2(0.5f), a.z, 30.0f * a.w);
         const float inside = step(0.999f, drop.cover);
         return vec4(drop.shift.x * inside, drop.shift.y * inside, drop.bright * inside, inside);
     }
@@ -408,8 +422,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return visibility_subsample(texel, int(min(a.y * 16.0f, 15.0f)));
     }
     if (kind == 47) {
-        const vec3 sum = over_sky_axes(probe_direction(a.x, a.y), vec3(a.z), vec3(a.w), vec3(b.x), vec3(b.y),
-                                       vec3(b.z), vec3(b.w));
+        const vec3 sum = over_sky_axes(probe_direction(a.x, a.y), splat3(a.z), splat3(a.w), splat3(b.x), splat3(b.y),
+                                       splat3(b.z), splat3(b.w));
         return vec4(sum.x, sky_axis(int(min(c.x * 6.0f, 5.0f))));
     }
     if (kind == 50) {
@@ -428,7 +442,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 depth = (0.001f + a.w) * normalize(cross(v, u));
         const vec2 slope = shadow_plane_slope(n, u, v, depth) / (0.001f + a.w);
         const vec2 lamp = lamp_plane_slope(n, vec3(b.z, b.w, 1.0f), vec2(n.x, n.y));
-        const float lit = four_texels_lit(vec4(0.5f), vec4(step(0.5f, c.x), 0.9f, 0.1f, step(0.3f, c.y)), four_texel_weights(vec2(c.z, c.w)));
+        const vec4 stored = vec4(step(0.5f, c.x), 0.9f, 0.1f, step(0.3f, c.y));
+        const float lit = four_texels_lit(splat4(0.5f), stored, four_texel_weights(vec2(c.z, c.w)));
         return vec4(0.01f * slope.x, 0.01f * slope.y, 0.1f * (lamp.x + lamp.y), lit + 0.01f * shadow_lift_texels(n.y, 1.0f, 2.5f));
     }
     if (kind == 52) {
@@ -442,14 +457,14 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 53) {
         // At the middles of cells and of what one serves: elsewhere the last bit chooses another.
         const vec2 at = floor(20.0f * vec2(a.x, a.y)) + vec2(0.3f + 0.4f * a.z, 0.5f);
-        const vec2 lean = floor(20.0f * vec2(b.x, b.y)) + vec2(0.5f);
+        const vec2 lean = floor(20.0f * vec2(b.x, b.y)) + splat2(0.5f);
         const uint level = uint(min(b.z * 7.0f, 6.0f));
-        return vec4(glints_of_level(at - vec2(0.37f * float(level)), lean, 10.0f * c.x * c.x, level),
+        return vec4(glints_of_level(at - splat2(0.37f * float(level)), lean, 10.0f * c.x * c.x, level),
                     glint_hill(vec2(c.y, c.z)), 0.0f, 0.0f);
     }
     if (kind == 54) {
         // A parallelogram near the point, above the horizon, across it or below; from its front and from behind.
-        const vec3 corner = 2.0f * vec3(a.x, a.y, a.z) - vec3(1.0f);
+        const vec3 corner = 2.0f * vec3(a.x, a.y, a.z) - splat3(1.0f);
         const vec3 u = probe_direction(b.x, b.y);
         const vec3 v = probe_direction(b.z, b.w);
         const vec3 n = probe_direction(c.x, c.y);
@@ -460,11 +475,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 55) {
         // Within cells: at their borders the last bit chooses another.
-        const vec2 at = 0.034f * (floor(40.0f * vec2(a.x, a.y)) + vec2(0.5f));
+        const vec2 at = 0.034f * (floor(40.0f * vec2(a.x, a.y)) + splat2(0.5f));
         return vec4(snow_body_share(0.07f * a.z, at, a.w), snow_body_code(0.07f * b.x), 0.0f, 0.0f);
     }
     if (kind == 56) {
-        const vec2 st = 2.0f * vec2(a.y, a.z) - vec2(1.0f);
+        const vec2 st = 2.0f * vec2(a.y, a.z) - splat2(1.0f);
         const vec3 d = cube_direction(int(min(a.x * 6.0f, 5.0f)), st);
         return vec4(d.x, d.y, d.z, cube_texel_weight(st));
     }
@@ -501,10 +516,10 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                vec4(again_height(row) / kAgainTop, again_sun_up(row), 0.0f, 0.0f);
     }
     if (kind == 57) {
-        const vec3 p = 3.0f * vec3(a.x, a.y, a.z) - vec3(1.5f);
+        const vec3 p = 3.0f * vec3(a.x, a.y, a.z) - splat3(1.5f);
         // Farther than where the orbits of neighbours part.
         const vec3 q = probe_direction(b.x, b.y) * (1.45f + b.z);
-        const MarchedShape ring = MarchedShape(SHAPE_TORUS, 0, 0.0f, vec3(1.0f + a.w, a.w, 1.0f + a.w));
+        const MarchedShape ring = probe_shape(SHAPE_TORUS, 0, 0.0f, vec3(1.0f + a.w, a.w, 1.0f + a.w));
         return vec4(sierpinski_distance(p, 4.0f * c.x), menger_distance(p, 3.0f * c.y),
                     mandelbulb_distance(q, 3.0f + 9.0f * b.w, 3), shape_distance(ring, p, 0.0f));
     }
@@ -512,14 +527,14 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         // Rays from around to a point within: where they meet a ball, a box of this size; and its normal.
         const vec3 from = 3.0f * probe_direction(a.x, a.y);
         const vec3 along = normalize(1.1f * probe_direction(b.x, b.y) * b.z - from);
-        const vec3 size = vec3(0.3f) + 0.7f * vec3(c.x, c.y, c.z);
+        const vec3 size = splat3(0.3f) + 0.7f * vec3(c.x, c.y, c.z);
         const vec2 ends = through_box(from, along, size);
-        const MarchedShape ball = MarchedShape(SHAPE_SPHERE, 0, 0.0f, vec3(1.0f));
+        const MarchedShape ball = probe_shape(SHAPE_SPHERE, 0, 0.0f, splat3(1.0f));
         // Whether a ray that nearly touches it meets it, the last bit decides.
         const float aside = length(cross(from, along));
         const float met = abs(aside - 1.0f) > 0.05f ? shape_met(ball, from, along, 0.0f, 9.0f, vec2(0.001f, 0.001f)) : 0.0f;
         const vec3 n = shape_normal(ball, from, 0.5f);
-        const MarchedShape sponge = MarchedShape(SHAPE_MENGER, 2, 0.0f, vec3(1.0f));
+        const MarchedShape sponge = probe_shape(SHAPE_MENGER, 2, 0.0f, splat3(1.0f));
         const float open = shape_open(sponge, from * 0.3f, n, 0.01f);
         return vec4(min(abs(ends.x), 9.0f), min(abs(ends.y), 9.0f), met, n.x + 2.0f * n.y + open);
     }
@@ -531,7 +546,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(float(place.face) + 0.25f * place.st.x, place.st.y + float(quad),
                     float(beside.face) + 0.25f * beside.st.x + 0.0625f * beside.st.y, light.x + 2.0f * light.y + 3.0f * light.z);
     }
-    const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
+    const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
 }
 

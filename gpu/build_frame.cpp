@@ -145,7 +145,7 @@ void add_light_of_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, Fra
 
 // The lighting models and layers of what may be seen; a pixel around the view counts, since samples are
 // jittered.
-void see_models(LightingVariant& variant, const GpuScene& scene, const shared::FrameConstants& c)
+void see_models(LightingVariant& variant, const GpuScene& scene, const shared::FrameConstants& c, bool prepass)
 {
     std::vector<bool>& models = variant.models;
     models.assign(scene.lighting_models().count(), false);
@@ -162,6 +162,9 @@ void see_models(LightingVariant& variant, const GpuScene& scene, const shared::F
             variant.layers |= material.layers;
         }
     }
+    variant.gathers = false;
+    for (std::uint32_t model = 0; prepass && model < models.size(); ++model)
+        variant.gathers |= models[model] && scene.lighting_models().gathers(model);
     // Without layers the layered model is the standard one: one text runs instead of both.
     if (models[LIGHTING_MODEL_LAYERED]) models[LIGHTING_MODEL_STANDARD] = false;
 }
@@ -460,7 +463,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         c.place = r.place->constants();
         if (soft_lamps) look_from_lamps(graph, frame, c, i, r);
         if (i == range.first) {
-            see_models(variant, *r.scene, c);
+            see_models(variant, *r.scene, c, frame.settings.light_prepass);
             if ((variant.layers & LAYERS_SKIN) != 0u) r.light_tables->need_skin();
             variant.lazarov = settings.lazarov;
             variant.horizon = settings.horizon_fade > 0.0f;

@@ -376,7 +376,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
     impl_->own_lighting = !own_lighting.empty();
     if (impl_->own_lighting)
         impl_->pipelines.add_shader(kOwnLightingShader, std::move(own_lighting));
-    auto own_surfaces = impl_->scene->own_surfaces().compile();
+    auto own_surfaces = impl_->scene->own_surfaces().compile_resolve();
     const bool shapes = !impl_->scene->shapes().empty();
     if ((!own_surfaces.empty() || shapes) &&
         chosen_surface_path(SurfacePath::Auto, impl_->device, *impl_->scene, 1, 1, false) != SurfacePath::Visibility) {
@@ -387,6 +387,11 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
     }
     if (!own_surfaces.empty()) {
         impl_->pipelines.add_shader(kOwnResolveShader, std::move(own_surfaces));
+        const auto& materials = impl_->scene->materials();
+        if (std::any_of(materials.begin(), materials.end(),
+                        [](const GpuMaterial& m) { return m.blended && m.own_surface != 0; })) {
+            impl_->pipelines.add_shader(kOwnTransparentShader, impl_->scene->own_surfaces().compile_transparent());
+        }
     }
 }
 

@@ -69,9 +69,9 @@ BlockFit fit_to_blocks(const texproc::RawImage& normal, const texproc::RawImage&
     }
     if (aims) {
         texproc::Prefiltered seen{
-            formats.keeps_normals ? stored.normal : chains.normal, chains.roughness, {}, {}};
+            formats.keeps_normals ? stored.normal : chains.normal, chains.roughness, {}, {}, {}};
         chains.roughness = texproc::aim_roughness(normal, roughness, seen, options);
-        texproc::Prefiltered rounded{{}, chains.roughness, {}, {}};
+        texproc::Prefiltered rounded{{}, chains.roughness, {}, {}, {}};
         texproc::quantize(rounded, formats.bits);
         stored.roughness = std::move(rounded.roughness);
     }

@@ -24,7 +24,8 @@ namespace {
 
 struct Arguments {
     PrefilterInput input;
-    std::string out, normal_out, anisotropy_out, base_share_out, quality = "full";
+    std::string out, normal_out, anisotropy_out, base_share_out, metal_share_out;
+    std::string quality = "full", surface = "both";
     std::string format, normal_format;
     int bits = 16;
     bool roughness_only = false, score = false, timings = false;
@@ -57,7 +58,8 @@ void print_score(const Arguments& a, const PrefilterMaps& maps, const BlockFit& 
 
 void take_options(Arguments& a)
 {
-    for (const std::string& name : {a.out, a.normal_out, a.anisotropy_out, a.base_share_out}) {
+    for (const std::string& name : {a.out, a.normal_out, a.anisotropy_out, a.base_share_out,
+                                    a.metal_share_out}) {
         if (!name.empty()) check_chain_name(name);
     }
     texproc::PrefilterOptions& o = a.input.options;
@@ -67,6 +69,19 @@ void take_options(Arguments& a)
     if (!a.base_share_out.empty() && o.rule != "picture") {
         throw Error("prefilter: the rule '" + o.rule + "' makes no base share",
                     "Use the rule picture, or leave --base-share-out out.");
+    }
+    o.surface = a.surface == "metal"   ? texproc::SurfaceClass::Metal
+                : a.surface == "paint" ? texproc::SurfaceClass::Paint
+                                       : texproc::SurfaceClass::Both;
+    if (a.surface != "both" && (o.rule != "picture" || o.quick)) {
+        throw Error("prefilter: --surface changes the rule picture in full quality only",
+                    "Leave --surface out.");
+    }
+    const bool metal = o.rule == "picture" && !o.quick && a.surface != "paint";
+    if (!a.metal_share_out.empty() && (!metal || a.normal_out.empty() || a.roughness_only)) {
+        throw Error("prefilter: there is no metal share without the rule picture in full quality, "
+                    "normals and metal",
+                    "Add --normal-out, or leave --metal-share-out out.");
     }
     // Re-aimed normals are of use only where they are written. Blocks choose their own codes.
     if (a.normal_out.empty()) {
@@ -103,6 +118,11 @@ void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit&
         const Image one(maps.normal.width, maps.normal.height, 1, ColorSpace::Data, 1.0f);
         write_chain({a.base_share_out, "", a.bits, o.threads, {}},
                     texproc::to_raw(one, texproc::PixelType::U8), "", chains.base_share);
+    }
+    if (!a.metal_share_out.empty()) {
+        const Image one(maps.normal.width, maps.normal.height, 1, ColorSpace::Data, 1.0f);
+        write_chain({a.metal_share_out, "", a.bits, o.threads, {}},
+                    texproc::to_raw(one, texproc::PixelType::U8), "", chains.metal_share);
     }
     if (!a.anisotropy_out.empty()) {
         // Level 0 has none: along x, strength 0.
@@ -197,6 +217,13 @@ void add_texture_prefilter(CLI::App& texture)
                     "direction (RG) and strength (B) as in glTF: 'aniso_%d.png'");
     app->add_option("--base-share-out", a->base_share_out,
                     "picture: what to multiply the base colour of level k by: 'share_%d.png'");
+    app->add_option("--metal-share-out", a->metal_share_out,
+                    "picture in full: the same of metal, 'metal_%d.png'");
+    app->add_option("--surface", a->surface,
+                    "picture in full: paint (anything but metal), metal, or both, which is a little "
+                    "worse on either")
+        ->check(CLI::IsMember({"both", "paint", "metal"}))
+        ->capture_default_str();
     std::string notes = "Rules:\n";
     for (const texproc::Rule& rule : texproc::rules()) {
         notes += "  " + rule.name +

@@ -57,7 +57,8 @@ public:
 
     void add(const std::string& material, const texproc::PictureBench& bench,
              const std::vector<texproc::Variant>& variants,
-             const std::vector<texproc::Prefiltered>& chains)
+             const std::vector<texproc::Prefiltered>& chains,
+             const std::vector<texproc::Prefiltered>& metals)
     {
         const texproc::Prefiltered plain;
         for (std::size_t c = 0; c < pictures_.cases.size(); ++c) {
@@ -72,7 +73,8 @@ public:
             // A line of its own: it may be longer than a picture is wide.
             sheet_.text(kGap, y_ + 14, material + ", " + light + (which.metal ? ", metal" : ""));
             place("plain mips", &plain);
-            for (std::size_t i = 0; i < variants.size(); ++i) place(variants[i].name, &chains[i]);
+            for (std::size_t i = 0; i < variants.size(); ++i) 
+                place(variants[i].name, which.metal ? &metals[i] : &chains[i]);
             place("truth", nullptr);
             y_ += height() + kLine;
         }
@@ -125,16 +127,30 @@ void run_score_picture(const ProtocolRequest& request, const texproc::ReadOption
         std::cerr << "score: " << maps.name << "\n";
         const texproc::PictureBench bench(maps.normal, maps.roughness, {}, pictures);
         const std::vector<PictureScore> plain = bench.score({});
-        std::vector<texproc::Prefiltered> chains;
+        std::vector<texproc::Prefiltered> chains, metals;
         std::vector<Sums>& row = of_material.emplace_back(variants.size());
         for (std::size_t i = 0; i < variants.size(); ++i) {
             texproc::PrefilterOptions options = variants[i].options;
             options.threads = threads;
             options.bits = variants[i].bits == 8 ? 8 : 0;
+            const bool by_class = options.rule == "picture" && !options.quick;
+            if (by_class) options.surface = texproc::SurfaceClass::Paint;
             texproc::Prefiltered chain =
                 texproc::prefilter_raw(maps.normal, maps.roughness, options);
             texproc::quantize(chain, variants[i].bits);
-            const std::vector<PictureScore> scores = bench.score(chain);
+            std::vector<PictureScore> scores = bench.score(chain);
+            if (by_class) {  // of metal there are levels of their own
+                options.surface = texproc::SurfaceClass::Metal;
+                texproc::Prefiltered of_metal =
+                    texproc::prefilter_raw(maps.normal, maps.roughness, options);
+                texproc::quantize(of_metal, variants[i].bits);
+                const std::vector<PictureScore> metal = bench.score(of_metal);
+                for (std::size_t c = 0; c < scores.size(); ++c)
+                    if (pictures.cases[c].metal) scores[c] = metal[c];
+                if (!request.sheet.empty()) metals.push_back(std::move(of_metal));
+            } else if (!request.sheet.empty()) {
+                metals.push_back(chain);
+            }
             for (std::size_t c = 0; c < scores.size(); ++c) {
                 of_rule[i].add(maps.name, plain[c], scores[c]);
                 row[i].add(maps.name, plain[c], scores[c]);
@@ -146,7 +162,7 @@ void run_score_picture(const ProtocolRequest& request, const texproc::ReadOption
             }
             if (!request.sheet.empty()) chains.push_back(std::move(chain));
         }
-        if (!request.sheet.empty()) sheet.add(maps.name, bench, variants, chains);
+        if (!request.sheet.empty()) sheet.add(maps.name, bench, variants, chains, metals);
     }
     if (!request.csv.empty()) texproc::write_bytes(request.csv, std::as_bytes(std::span(csv)));
     if (!request.sheet.empty()) sheet.write(request.sheet);

@@ -10,12 +10,14 @@
 //   [materials."sea*"]
 //   surface = "shore_water.glsl"
 //
+// Of a material that is blended (preset = "fade") the ground below shows through, the less the deeper.
 // Waves go with the wind and grow with it. They lean the surface, which stays as flat as its mesh. Rain is lost in
 // it, snow melts on it.
 #include "gpu/passes/surface/own_surface.glsl"
 
 const vec3 kShoreDeep = vec3(0.004, 0.022, 0.034);     // light that comes back from below, of clear sea
 const vec3 kShoreShallow = vec3(0.055, 0.16, 0.15);    // the same over sand
+const vec3 kShoreAbsorbs = vec3(4.2, 0.84, 0.36);      // of clear water, there and back through 6 m
 const float kShoreFoam = 0.55;                         // albedo of foam (Koepke 1984)
 const int kShoreWaves = 6;
 
@@ -118,6 +120,13 @@ void shore_water_surface(SurfaceInput at, inout SurfaceData data)
     const float all = (0.003 + 0.00512 * speed) * mix(0.15, 1.0, mask.b);
     const float alpha = sqrt(max(all - w.resolved * mask.b * mask.b, 0.002));
     data.texel.base_color = mix(below, vec3(kShoreFoam), foam);
+    if (material.alpha_mode == ALPHA_BLEND) {  // the sand is not painted then, it is there
+        const float seen = (1.0 - deep) * (1.0 - foam);
+        data.opacity = 1.0 - seen;
+        data.filtered = exp(-kShoreAbsorbs * mask.a);
+        data.texel.base_color =
+            (kShoreDeep * (deep * (1.0 - foam)) + kShoreFoam * foam) / max(1.0 - seen, 1.0e-3);
+    }
     data.texel.roughness = mix(sqrt(alpha), 0.8, foam);
     data.texel.metallic = 0.0;
     data.texel.f0 = vec3(0.02);

@@ -136,6 +136,7 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.exposure);
     hasher.add(settings.exposure_bias_stops);
     hasher.add(settings.surface_path);
+    hasher.add(settings.light_prepass);
     hasher.add(settings.occlusion_direct);
     hasher.add(settings.area_lights);
     hasher.add(settings.least_lux);
@@ -438,6 +439,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.bloom = narrow(value_at(camera.bloom, time_s, kBloom));
     settings.wet_lens = narrow(value_at(camera.wet_lens, time_s, 0.0));
     settings.surface_path = scenario.render.surface_path;
+    settings.light_prepass = scenario.render.light_prepass;
     settings.patch_light = wants_patches(sequence);
     settings.aovs = scenario.output.aovs;
     return result;

@@ -578,6 +578,13 @@ const std::vector<Rule>& rules()
              s.render.surface_path =
                  static_cast<gpu::SurfacePath>(v.choice({"auto", "fragment", "visibility"}));
          }},
+        {{"render", "lighting_path", "\"prepass\"",
+          "of lighting models of your own: prepass (light is gathered first and composed with the material "
+          "once, by models that have NAME_gather and NAME_compose; others answer light by light), or "
+          "forward (all answer light by light)"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.light_prepass = v.choice({"prepass", "forward"}) == 0;
+         }},
 
         {{"output", "width", "640", "pixels, 1 to 16384", false, true},
          [](Scenario& s, const TomlValue& v) { s.output.width = v.integer(1, 16384); }},

@@ -209,6 +209,7 @@ struct ScenarioRender : gpu::FrameSwitches {
     IndirectLight indirect = IndirectLight::Auto;
     ScenarioProbes probes;
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
+    bool light_prepass = true;  ///< lighting_path = "prepass"
 };
 
 struct ScenarioOutput {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -119,6 +120,27 @@ Plain plain_for(const texproc::TextureFormat& format, bool color)
                   : Plain{"rgba8", TexelFormat::Rgba8Unorm};
 }
 
+// A level of colours in blocks for the CPU: the first of 64 texels a side, or the last.
+std::shared_ptr<const gpu::Texture> plain_level(const MipTexture& file, int threads)
+{
+    int level = 0;
+    int width = file.width;
+    int height = file.height;
+    while (level + 1 < static_cast<int>(file.levels.size()) && std::max(width, height) > 64) {
+        ++level;
+        width = texproc::level_extent(file.width, level);
+        height = texproc::level_extent(file.height, level);
+    }
+    const Plain plain = plain_for(file.format, true);
+    gpu::Texture made;
+    made.format = plain.format;
+    made.width = width;
+    made.height = height;
+    const RawImage texels = texproc::decode_level(file, level, threads);
+    made.mips = texproc::make_texture({&texels, 1}, {.format = plain.name, .threads = threads}).levels;
+    return std::make_shared<const gpu::Texture>(std::move(made));
+}
+
 // -1..1 to the 0..1 that normal maps are read in.
 RawImage unsigned_numbers(const RawImage& level)
 {
@@ -175,6 +197,7 @@ LoadedTexture load_prepared(const MipTexture& file, TextureMeaning meaning, Bloc
     if (const auto same = format_of(format, color, blocks)) {
         out.format = *same;
         out.mips = file.levels;
+        if (color && format.block) out.plain = plain_level(file, threads);
         return loaded;
     }
     loaded.as_stored = false;

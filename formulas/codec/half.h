@@ -16,15 +16,15 @@ SHARED_FN uint half_code(float x)
     // Below the least normal half a sum whose last bit has the weight of a half's does the
     // rounding.
     const uint rounded = u < 0x38800000u ? floatBitsToUint(uintBitsToFloat(u) + 0.5f) - 0x3f000000u
-                                         : (u - 0x37fff001u + ((u >> 13) & 1u)) >> 13;
+                                         : (u - 0x37fff001u + ((u >> 13u) & 1u)) >> 13u;
     const uint code = u >= 0x477ff000u ? (u > 0x7f800000u ? 0x7e00u : 0x7c00u) : rounded;
-    return code | ((all >> 16) & 0x8000u);
+    return code | ((all >> 16u) & 0x8000u);
 }
 
 // Two in one word, the first in the low bits.
 SHARED_FN uint half_codes(float low, float high)
 {
-    return half_code(low) | (half_code(high) << 16);
+    return half_code(low) | (half_code(high) << 16u);
 }
 
 SHARED_END

@@ -36,9 +36,9 @@ SHARED_FN float agx_curve(float x)
     return clamp(toe ? kAgxPivotCode - rise : kAgxPivotCode + rise, 0.0f, 1.0f);
 }
 
-SHARED_FN float agx_channel(float linear)
+SHARED_FN float agx_channel(float light)
 {
-    const float stops = log2(max(linear, 1.0e-10f) / 0.18f);
+    const float stops = log2(max(light, 1.0e-10f) / 0.18f);
     return agx_curve(clamp((stops + 10.0f) / 16.5f, 0.0f, 1.0f));
 }
 

@@ -19,13 +19,13 @@ SHARED_FN vec3 khronos_neutral(vec3 exposed)
     const float low = min(c.x, min(c.y, c.z));
     const float f = 2.0f * kNeutralF90;
     const float offset = low < f ? low - low * low / (4.0f * kNeutralF90) : kNeutralF90;
-    const vec3 base = c - vec3(offset);
+    const vec3 base = c - splat3(offset);
     const float peak = max(base.x, max(base.y, base.z));
     if (peak < kNeutralCompressed) return base;
     const float room = 1.0f - kNeutralCompressed;
     const float new_peak = 1.0f - room * room / (peak + room - kNeutralCompressed);
     const float bleach = 1.0f - 1.0f / (kNeutralBleach * (peak - new_peak) + 1.0f);
-    return mix(base * (new_peak / peak), vec3(new_peak), bleach);
+    return mix(base * (new_peak / peak), splat3(new_peak), bleach);
 }
 
 SHARED_END

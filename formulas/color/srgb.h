@@ -31,10 +31,10 @@ SHARED_FN float srgb_encode(float x)
 }
 
 // Of a colour; what is brighter than 1 goes on along the curve.
-SHARED_FN vec3 srgb_codes(vec3 linear)
+SHARED_FN vec3 srgb_codes(vec3 light)
 {
-    return vec3(srgb_from_linear(max(linear.x, 0.0f)), srgb_from_linear(max(linear.y, 0.0f)),
-                srgb_from_linear(max(linear.z, 0.0f)));
+    return vec3(srgb_from_linear(max(light.x, 0.0f)), srgb_from_linear(max(light.y, 0.0f)),
+                srgb_from_linear(max(light.z, 0.0f)));
 }
 
 SHARED_END

@@ -32,7 +32,7 @@ SHARED_FN vec3 tone_map(vec3 exposed)
     const float peak = max(exposed.x, max(exposed.y, exposed.z));
     const float to_white = peak / (peak + 6.0f);
     const float grey = dot(exposed, vec3(0.2126f, 0.7152f, 0.0722f));
-    const vec3 c = mix(exposed, vec3(grey), to_white * 0.6f);
+    const vec3 c = mix(exposed, splat3(grey), to_white * 0.6f);
     return vec3(filmic_channel(c.x), filmic_channel(c.y), filmic_channel(c.z));
 }
 

@@ -53,15 +53,15 @@ SHARED_FN vec3 cones_of_white(float temperature_k)
 // Factors of the cones that make the white of `temperature_k` the display's.
 SHARED_FN vec3 white_balance_gains(float temperature_k)
 {
-    return cones_from_rgb(vec3(1.0f)) / cones_of_white(temperature_k);
+    return cones_from_rgb(splat3(1.0f)) / cones_of_white(temperature_k);
 }
 
 // Factors that make the colour of a light (linear Rec.709, of luminance 1) white, by a share of its
 // cast: 0 none, 1 all of it. The share is the degree of adaptation D of CIECAM16.
 SHARED_FN vec3 white_balance_gains_of_light(vec3 light, float share)
 {
-    const vec3 cones = max(cones_from_rgb(light), vec3(1e-3f));
-    return cones_from_rgb(vec3(1.0f)) / cones * share + vec3(1.0f - share);
+    const vec3 cones = max(cones_from_rgb(light), splat3(1e-3f));
+    return cones_from_rgb(splat3(1.0f)) / cones * share + splat3(1.0f - share);
 }
 
 SHARED_FN vec3 white_balanced(vec3 rgb, vec3 gains)

@@ -48,7 +48,7 @@ SHARED_FN vec3 sorted_down(vec3 p)
 SHARED_FN float box_distance(vec3 p, vec3 box_half)
 {
     const vec3 q = abs(p) - box_half;
-    return length(max(q, vec3(0.0f))) + min(max(q.x, max(q.y, q.z)), 0.0f);
+    return length(max(q, splat3(0.0f))) + min(max(q.x, max(q.y, q.z)), 0.0f);
 }
 
 // Mirrors a point by the planes between corners of the tetrahedron, until (1,1,1) is the nearest.
@@ -79,12 +79,12 @@ SHARED_FN float sierpinski_distance(vec3 p, float levels)
     const float part = levels - float(whole);
     float size = 1.0f;
     for (int i = 0; i < whole; ++i) {
-        p = 2.0f * to_first_corner(p) - vec3(1.0f);
+        p = 2.0f * to_first_corner(p) - splat3(1.0f);
         size *= 0.5f;
     }
     const float d = size * tetrahedron_distance(p);
     if (part <= 0.0f) return d;
-    return mix(d, 0.5f * size * tetrahedron_distance(2.0f * to_first_corner(p) - vec3(1.0f)), part);
+    return mix(d, 0.5f * size * tetrahedron_distance(2.0f * to_first_corner(p) - splat3(1.0f)), part);
 }
 
 // Nine cubes of a level in three rows: the nearest that is left has its middle here.
@@ -103,26 +103,26 @@ SHARED_FN float menger_distance(vec3 p, float levels)
         p = to_small_cube(p);
         size *= 1.0f / 3.0f;
     }
-    const float d = size * box_distance(p, vec3(1.0f));
+    const float d = size * box_distance(p, splat3(1.0f));
     if (part <= 0.0f) return d;
-    return mix(d, size / 3.0f * box_distance(to_small_cube(p), vec3(1.0f)), part);
+    return mix(d, size / 3.0f * box_distance(to_small_cube(p), splat3(1.0f)), part);
 }
 
 // A point to a power: its length to that power, its angles from the axis y and around it times it. `growth`: how
 // much lengths grow there at most.
 struct BulbPower {
-    vec3 point;
+    vec3 to;
     float growth;
 };
 SHARED_FN BulbPower bulb_power(vec3 v, float r, float power)
 {
     const float across = sqrt(v.x * v.x + v.z * v.z);
-    const float theta = power * atan(across, v.y);
-    const float phi = power * atan(v.z, v.x);
+    const float theta = power * atan2(across, v.y);
+    const float phi = power * atan2(v.z, v.x);
     const float level = sin(theta);
     const float raised = pow(max(r, 1.0e-20f), power - 1.0f);
     BulbPower b;
-    b.point = r * raised * vec3(level * cos(phi), cos(theta), level * sin(phi));
+    b.to = r * raised * vec3(level * cos(phi), cos(theta), level * sin(phi));
     // By power r^(power - 1) along r and towards the axis. Around it a circle of `across` becomes one of
     // r^power |sin theta|, power times: on the axis that is power times as much.
     b.growth = power * raised * clamp(abs(level) * r / max(across, 1.0e-20f), 1.0f, power);
@@ -140,7 +140,7 @@ SHARED_FN float mandelbulb_distance(vec3 c, float power, int iterations)
     while (i < iterations && r <= kBulbEscape) {
         const BulbPower b = bulb_power(v, r, power);
         growth = b.growth * growth + 1.0f;
-        v = b.point + c;
+        v = b.to + c;
         r = length(v);
         ++i;
     }
@@ -152,8 +152,8 @@ SHARED_FN float mandelbulb_distance(vec3 c, float power, int iterations)
 // Half of the box that holds a shape. The orbit of what is longer than 2^(1 / (power - 1)) grows for ever.
 SHARED_FN vec3 shape_half(int kind, float power)
 {
-    if (kind == SHAPE_MANDELBULB) return vec3(exp2(1.0f / (power - 1.0f)));
-    return vec3(1.0f);
+    if (kind == SHAPE_MANDELBULB) return splat3(exp2(1.0f / (power - 1.0f)));
+    return splat3(1.0f);
 }
 
 // footprint: of what can be told apart there, in the shape's units; smaller levels are left out. 0: all of them.

@@ -69,11 +69,11 @@ SHARED_FN float haze_scattering(float turbidity)
 // Per metre where the relative densities are `density`: scattered, and scattered or absorbed.
 SHARED_FN vec4 air_scattering(vec3 density, float turbidity)
 {
-    return molecule_scattering() * density.x + vec4(haze_scattering(turbidity) * density.y);
+    return molecule_scattering() * density.x + splat4(haze_scattering(turbidity) * density.y);
 }
 SHARED_FN vec4 air_extinction(vec3 density, float turbidity)
 {
-    return molecule_scattering() * density.x + vec4(1.1f * haze_scattering(turbidity) * density.y) +
+    return molecule_scattering() * density.x + splat4(1.1f * haze_scattering(turbidity) * density.y) +
            vec4(2.1617e-6f, 1.7710e-6f, 0.3406e-6f, 0.0375e-6f) * density.z;
 }
 
@@ -85,10 +85,10 @@ SHARED_FN vec4 air_kept(vec4 depth)
 // Share of light that reaches `height` from space along a direction, by band; 0 behind the earth.
 SHARED_FN vec4 air_transmittance_bands(float height, float up, float turbidity)
 {
-    if (distance_to_ground(height, up) > 0.0f) return vec4(0.0f);
+    if (distance_to_ground(height, up) > 0.0f) return splat4(0.0f);
     const float reach = distance_to_space(height, up);
     const float r = kEarthRadius + height;
-    vec4 depth = vec4(0.0f);
+    vec4 depth = splat4(0.0f);
     const int steps = 12;
     float before = 0.0f;
     for (int i = 1; i <= steps; ++i) {
@@ -106,7 +106,7 @@ SHARED_FN vec4 air_transmittance_bands(float height, float up, float turbidity)
 // The same of white light, in linear sRGB.
 SHARED_FN vec3 air_transmittance(float height, float up, float turbidity)
 {
-    return max(air_rgb(air_transmittance_bands(height, up, turbidity)), vec3(0.0f));
+    return max(air_rgb(air_transmittance_bands(height, up, turbidity)), splat3(0.0f));
 }
 
 // Share of scattered light per steradian for molecules (x) and haze (y); c is the cosine of the

@@ -32,7 +32,7 @@ SHARED_FN vec3 schlick_fresnel(vec3 f0, float lh)
 {
     const float m = 1.0f - lh;
     const float m2 = m * m;
-    return f0 + (vec3(1.0f) - f0) * (m2 * m2 * m);
+    return f0 + (splat3(1.0f) - f0) * (m2 * m2 * m);
 }
 
 // Between the directions to the eye and to the light; zero, not nothing, where they are opposite.

@@ -11,14 +11,14 @@ SHARED_CONST int kCloudOctaves = 7;
 
 SHARED_FN vec2 next_cloud_octave(vec2 p)
 {
-    return vec2(0.8f * p.x - 0.6f * p.y, 0.6f * p.x + 0.8f * p.y) * 2.03f + vec2(17.0f);
+    return vec2(0.8f * p.x - 0.6f * p.y, 0.6f * p.x + 0.8f * p.y) * 2.03f + splat2(17.0f);
 }
 
 // How far the field is bent aside at a place.
 SHARED_FN vec2 cloud_bend(vec2 at)
 {
-    return 0.45f * vec2(endless_noise(at * 0.9f + vec2(7.0f), 320u) - 0.5f,
-                        endless_noise(at * 1.1f + vec2(31.0f), 322u) - 0.5f);
+    return 0.45f * vec2(endless_noise(at * 0.9f + splat2(7.0f), 320u) - 0.5f,
+                        endless_noise(at * 1.1f + splat2(31.0f), 322u) - 0.5f);
 }
 
 // About 0.67 +- 0.15 at a bent place. Two octaves place the clouds, the finer ones are round with creases

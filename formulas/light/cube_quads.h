@@ -36,10 +36,10 @@ SHARED_FN CubePlace cube_place(vec3 d)
 // The place of the texel beside a face, one past one of its edges; texel: -1..side, one of both inside.
 SHARED_FN CubePlace cube_beside(int face, ivec2 texel, int side)
 {
-    const vec2 st = (vec2(texel) + vec2(0.5f)) * (2.0f / float(side)) - vec2(1.0f);
+    const vec2 st = (vec2(texel) + splat2(0.5f)) * (2.0f / float(side)) - splat2(1.0f);
     // On the edge of the face the other one begins: half a texel further in is the middle of its first texel.
-    const vec2 held = clamp(st, vec2(-1.0f), vec2(1.0f));
-    const vec3 inward = cube_direction(face, vec2(0.0f)) * (1.0f / float(side));
+    const vec2 held = clamp(st, splat2(-1.0f), splat2(1.0f));
+    const vec3 inward = cube_direction(face, splat2(0.0f)) * (1.0f / float(side));
     return cube_place(cube_direction(face, held) - inward);
 }
 
@@ -59,7 +59,7 @@ SHARED_FN int cube_quad(int begin, int side, int face, ivec2 quad)
 // Light in a word: three numbers of nine bits over a common exponent; from 2^-24 to 65408.
 SHARED_FN uint light_word(vec3 light)
 {
-    const vec3 c = clamp(light, vec3(0.0f), vec3(65408.0f));
+    const vec3 c = clamp(light, splat3(0.0f), splat3(65408.0f));
     // The largest has its first bit in the nine, after it is rounded.
     const float most = max(c.x, max(c.y, c.z)) * (1024.0f / 1023.0f);
     const int power = max(int(floatBitsToUint(most) >> 23u) - 127, -16) + 1;

@@ -51,7 +51,7 @@ SHARED_FN vec3 thin_film_fresnel(float film_ior, float thickness_nm, vec3 f0, fl
     const float t = clamp(thickness_nm / 0.03f, 0.0f, 1.0f);
     const float n = mix(1.0f, film_ior, t * t * (3.0f - 2.0f * t));
     const float inside2 = 1.0f - (1.0f - cosine * cosine) / (n * n);
-    if (inside2 < 0.0f) return vec3(1.0f);
+    if (inside2 < 0.0f) return splat3(1.0f);
     const float inside = sqrt(inside2);
     const float above = boundary_f0(n, 1.0f);
     const float m = 1.0f - cosine;
@@ -63,18 +63,18 @@ SHARED_FN vec3 thin_film_fresnel(float film_ior, float thickness_nm, vec3 f0, fl
     // Half a wave is lost on the way back from the thinner medium: at the film's top from within, and
     // at a base that is thinner than the film.
     const float top = n < 1.0f ? 0.0f : kPi;
-    const vec3 shift = vec3(top) + vec3(base.x < n ? kPi : 0.0f, base.y < n ? kPi : 0.0f,
+    const vec3 shift = splat3(top) + vec3(base.x < n ? kPi : 0.0f, base.y < n ? kPi : 0.0f,
                                         base.z < n ? kPi : 0.0f);
     const float opd_nm = 2.0f * n * thickness_nm * inside;
-    const vec3 r123 = clamp(r23 * r12, vec3(0.0f), vec3(0.9999f));
+    const vec3 r123 = clamp(r23 * r12, splat3(0.0f), splat3(0.9999f));
     const vec3 root = sqrt(r123);
-    const vec3 series = r23 * (t121 * t121) / (vec3(1.0f) - r123);
-    vec3 sum = vec3(r12) + series;
-    vec3 c = (series - vec3(t121)) * root;
+    const vec3 series = r23 * (t121 * t121) / (splat3(1.0f) - r123);
+    vec3 sum = splat3(r12) + series;
+    vec3 c = (series - splat3(t121)) * root;
     sum = sum + c * fringe_color(opd_nm, shift) * 2.0f;
     c = c * root;
     sum = sum + c * fringe_color(2.0f * opd_nm, shift * 2.0f) * 2.0f;
-    return max(sum, vec3(0.0f));
+    return max(sum, splat3(0.0f));
 }
 
 // The reflectance at normal incidence that shows at this cosine what the film mirrors there: within 0..1.
@@ -83,7 +83,7 @@ SHARED_FN vec3 thin_film_f0(float film_ior, float thickness_nm, vec3 f0, float c
     const vec3 seen = thin_film_fresnel(film_ior, thickness_nm, f0, cosine);
     const float m = 1.0f - cosine;
     const float edge = min(m * m * m * m * m, 0.9999f);
-    return clamp((seen - vec3(edge)) / (1.0f - edge), vec3(0.0f), vec3(1.0f));
+    return clamp((seen - splat3(edge)) / (1.0f - edge), splat3(0.0f), splat3(1.0f));
 }
 
 SHARED_END

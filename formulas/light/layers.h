@@ -127,7 +127,7 @@ SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, vec3 albedo, float roughnes
                             (1.0f - layers.coat * coat_fresnel(nv));
         const float mirrored =
             layers.coat * coat_fresnel(clamp(dot(l, h), 0.0f, 1.0f)) * coat_here * nl;
-        base = base * below + vec3(mirrored);
+        base = base * below + splat3(mirrored);
     }
     return base + albedo * (layers.transmitted / kPi * max(-facing, 0.0f));
 }
@@ -161,7 +161,7 @@ SHARED_FN vec3 tangent_at(vec3 n, float angle)
 SHARED_FN float tangent_code(vec3 n, vec3 tangent)
 {
     const vec3 t = frame_tangent(n);
-    const float turn = atan(dot(cross(n, t), tangent), dot(t, tangent)) / kPi;
+    const float turn = atan2(dot(cross(n, t), tangent), dot(t, tangent)) / kPi;
     return turn - floor(turn);
 }
 

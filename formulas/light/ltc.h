@@ -134,7 +134,7 @@ SHARED_FN vec3 outline_irradiance(Outline o, Frame3 f)
     vec2 turn = vec2(0.98078528f, -0.19509032f);
     vec3 before = normalize(through(f, outline_corner(o, turn, o.corners - 1)));
     turn = vec2(0.98078528f, 0.19509032f);
-    vec3 sum = vec3(0.0f);
+    vec3 sum = splat3(0.0f);
     for (int i = 0; i < o.corners; ++i) {
         const vec3 here = normalize(through(f, outline_corner(o, turn, i)));
         sum = sum + edge_irradiance(here, before);

@@ -57,7 +57,7 @@ SHARED_FN float near_form_factor(vec3 a, vec3 b, vec3 c, vec3 d, vec3 n)
     float sum = near_edge(up_a ? p : ab, up_b ? q : ab, n) + near_edge(up_b ? q : bc, up_c ? r : bc, n) +
                 near_edge(up_c ? r : cd, up_d ? s : cd, n) + near_edge(up_d ? s : da, up_a ? p : da, n);
     // A convex polygon goes down once and comes up once: along the horizon between.
-    const vec3 none = vec3(0.0f);
+    const vec3 none = splat3(0.0f);
     const vec3 down = up_a && !up_b ? ab : up_b && !up_c ? bc : up_c && !up_d ? cd : up_d && !up_a ? da : none;
     const vec3 up = !up_a && up_b ? ab : !up_b && up_c ? bc : !up_c && up_d ? cd : !up_d && up_a ? da : none;
     sum = sum + near_edge(down, up, n);

@@ -29,13 +29,13 @@ SHARED_FN float occlusion_slope_of(uint code)
 // Its neighbours read x alone.
 SHARED_FN uvec2 occlusion_point_code(OcclusionPoint p)
 {
-    return uvec2((floatBitsToUint(p.depth) << 1 & 0xffffff00u) | uint(clamp(p.open, 0.0f, 1.0f) * 255.0f + 0.5f),
-                 occlusion_slope_code(p.slope.x) | occlusion_slope_code(p.slope.y) << 14 | p.alone << 28);
+    return uvec2((floatBitsToUint(p.depth) << 1u & 0xffffff00u) | uint(clamp(p.open, 0.0f, 1.0f) * 255.0f + 0.5f),
+                 occlusion_slope_code(p.slope.x) | occlusion_slope_code(p.slope.y) << 14u | p.alone << 28u);
 }
 
 SHARED_FN float occlusion_point_depth(uint x)
 {
-    return uintBitsToFloat(x >> 1 & 0x7fffff80u);
+    return uintBitsToFloat(x >> 1u & 0x7fffff80u);
 }
 
 SHARED_FN float occlusion_point_open(uint x)
@@ -48,8 +48,8 @@ SHARED_FN OcclusionPoint occlusion_point_of(uvec2 code)
     OcclusionPoint p;
     p.depth = occlusion_point_depth(code.x);
     p.open = occlusion_point_open(code.x);
-    p.slope = vec2(occlusion_slope_of(code.y & 16383u), occlusion_slope_of(code.y >> 14 & 16383u));
-    p.alone = code.y >> 28;
+    p.slope = vec2(occlusion_slope_of(code.y & 16383u), occlusion_slope_of(code.y >> 14u & 16383u));
+    p.alone = code.y >> 28u;
     return p;
 }
 

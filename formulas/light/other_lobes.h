@@ -55,7 +55,7 @@ SHARED_FN float burley_diffuse(LobeCosines c, float roughness)
 SHARED_FN vec3 shade_burley(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float roughness)
 {
     const LobeCosines c = lobe_cosines(n, v, l);
-    const vec3 highlight = shade_direct(n, v, l, vec3(0.0f), f0, roughness * roughness);
+    const vec3 highlight = shade_direct(n, v, l, splat3(0.0f), f0, roughness * roughness);
     return highlight + diffuse * (burley_diffuse(c, roughness) * c.nl / kPi);
 }
 
@@ -70,7 +70,7 @@ SHARED_FN vec3 shade_lux(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float ro
                                      c.nv * (c.nl * (1.0f - alpha) + alpha) + 1.0e-5f);
     const float lit = f0.x == 0.0f ? 0.0f : 1.0f;
     const float specular = max(kPi * distribution * visibility * c.nl, 0.0f) * lit;
-    const vec3 fresnel = f0 + (vec3(1.0f) - f0) * fifth_power(1.0f - c.lh);
+    const vec3 fresnel = f0 + (splat3(1.0f) - f0) * fifth_power(1.0f - c.lh);
     return (diffuse * (burley_diffuse(c, roughness) * c.nl) + fresnel * specular) / kPi;
 }
 
@@ -96,7 +96,7 @@ SHARED_FN vec3 shade_hair(vec3 n, vec3 t, vec3 v, vec3 l, vec3 diffuse, vec3 col
 {
     const float nl = dot(n, l);
     const float nv = dot(n, v);
-    if (nl <= 0.0f || nv <= 0.0f) return vec3(0.0f);
+    if (nl <= 0.0f || nv <= 0.0f) return splat3(0.0f);
     const float lh = clamp(dot(l, half_vector(v, l)), 0.0f, 1.0f);
     const float fresnel = 0.046f + 0.954f * fifth_power(1.0f - lh);
     const float along = max(roughness * roughness, 0.01f);
@@ -111,7 +111,7 @@ SHARED_FN vec3 shade_hair(vec3 n, vec3 t, vec3 v, vec3 l, vec3 diffuse, vec3 col
     const float low = clamp(min(min(dot(root, l), dot(root, v)), min(dot(tip, l), dot(tip, v))) * 8.0f,
                             0.0f, 1.0f);
     return (diffuse * ((1.0f - fresnel) / kPi) +
-            (vec3(fresnel * first) + color * ((1.0f - fresnel) * 0.5f * second)) * low) *
+            (splat3(fresnel * first) + color * ((1.0f - fresnel) * 0.5f * second)) * low) *
            nl;
 }
 

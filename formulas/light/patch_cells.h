@@ -28,8 +28,8 @@ struct PatchKey {
 // Cell of level 0 that holds the point; inverse_cell = 1 / edge of a cell of level 0.
 SHARED_FN ivec3 patch_cell(vec3 x, float inverse_cell)
 {
-    const vec3 c = floor(x * inverse_cell + vec3(kPatchGridShift));
-    return ivec3(int(c.x), int(c.y), int(c.z)) + ivec3(kPatchCellBias);
+    const vec3 c = floor(x * inverse_cell + splat3(kPatchGridShift));
+    return ivec3(int(c.x), int(c.y), int(c.z)) + ivec3(kPatchCellBias, kPatchCellBias, kPatchCellBias);
 }
 
 // Of a cell counted in its own level: cell of level 0 >> level. No two cells share a key.
@@ -39,8 +39,8 @@ SHARED_FN PatchKey patch_key(ivec3 cell, int axis, int level)
     const uint y = uint(cell.y) & 0x7ffffu;
     const uint z = uint(cell.z) & 0x7ffffu;
     PatchKey key;
-    key.low = x | (y << 19);
-    key.high = (y >> 13) | (z << 6) | (uint(axis) << 25) | (uint(level) << 28);
+    key.low = x | (y << 19u);
+    key.high = (y >> 13u) | (z << 6u) | (uint(axis) << 25u) | (uint(level) << 28u);
     return key;
 }
 
@@ -48,11 +48,11 @@ SHARED_FN PatchKey patch_key(ivec3 cell, int axis, int level)
 SHARED_FN uint patch_key_hash(PatchKey key)
 {
     uint h = key.low * 0x9e3779b1u ^ key.high * 0x85ebca77u;
-    h = h ^ (h >> 15);
+    h = h ^ (h >> 15u);
     h = h * 0x2c1b3c6du;
-    h = h ^ (h >> 12);
+    h = h ^ (h >> 12u);
     h = h * 0x297a2d39u;
-    return h ^ (h >> 15);
+    return h ^ (h >> 15u);
 }
 
 // The axis that a direction points along most: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z.

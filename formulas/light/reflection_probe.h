@@ -49,7 +49,7 @@ SHARED_FN float glow_share(float roughness)
 // 1 in the box low .. high, 0 from blend_m outside it on.
 SHARED_FN float reflection_probe_share(vec3 position, vec3 low, vec3 high, float blend_m)
 {
-    const vec3 beyond = max(max(low - position, position - high), vec3(0.0f));
+    const vec3 beyond = max(max(low - position, position - high), splat3(0.0f));
     return clamp(1.0f - length(beyond) / max(blend_m, 1.0e-3f), 0.0f, 1.0f);
 }
 
@@ -64,7 +64,7 @@ SHARED_FN float reflection_probe_weight(float share, float boost, vec3 way)
 // second and the third change places.
 SHARED_FN vec2 reflection_probe_blend(vec3 heaviest)
 {
-    const vec2 w = vec2(heaviest.x, heaviest.y) - vec2(0.98f * heaviest.z);
+    const vec2 w = vec2(heaviest.x, heaviest.y) - splat2(0.98f * heaviest.z);
     return w / max(w.x + w.y, 1.0e-20f);
 }
 
@@ -93,7 +93,7 @@ SHARED_FN uint probe_band_word(vec2 numbers)
 {
     const uint lower = uint(int(floor(numbers.x * 32767.0f + 0.5f))) & 65535u;
     const float below = float(lower) * (1.0f / 65536.0f);
-    return uint(int(floor(numbers.y * 32767.0f + 0.5f - below))) << 16 | lower;
+    return uint(int(floor(numbers.y * 32767.0f + 0.5f - below))) << 16u | lower;
 }
 
 SHARED_CONST float kProbeBandOne = 32767.0f * 65536.0f;
@@ -101,7 +101,7 @@ SHARED_CONST float kProbeBandOne = 32767.0f * 65536.0f;
 // .. times kProbeBandOne.
 SHARED_FN vec2 probe_bands_of_word(uint word)
 {
-    return vec2(float(int(word << 16)), float(int(word)));
+    return vec2(float(int(word << 16u)), float(int(word)));
 }
 
 // What a GGX lobe seen along the normal leaves of the i-th function; fitted to its integrals (0.003 of the first

@@ -38,7 +38,7 @@ SHARED_FN vec2 shadow_plane_slope(vec3 n, vec3 u, vec3 v, vec3 depth)
     const vec2 across = vec2(dot(n, u) * inversesqrt(uu), dot(n, v) * inversesqrt(vv));
     const float facing = dot(n, depth) * inv_d;
     const float steep = length(across);
-    if (!(steep > 0.0f)) return vec2(0.0f);
+    if (!(steep > 0.0f)) return splat2(0.0f);
     const float tangent = min(steep / max(abs(facing), 1.0e-6f), kShadowPlaneTangent);
     const vec2 metres = across * (-tangent * (facing < 0.0f ? -1.0f : 1.0f) / steep);
     const float per_metre = dd * inv_d;

@@ -32,13 +32,13 @@ SHARED_FN vec3 skin_profile(float d2)
 // of max(nl, 0).
 SHARED_FN vec3 skin_ring(float nl, float curvature)
 {
-    if (curvature < 1.0e-3f) return vec3(max(nl, 0.0f));
+    if (curvature < 1.0e-3f) return splat3(max(nl, 0.0f));
     const float radius = kSkinRadius_mm / curvature;
     const float sine = sqrt(max(1.0f - nl * nl, 0.0f));
     // The half of it that can be seen; of wide rings no more than where light comes from.
     const float reach = min(1.57079633f, kSkinReach_mm / radius);
-    vec3 sum = vec3(0.0f);
-    vec3 all = vec3(0.0f);
+    vec3 sum = splat3(0.0f);
+    vec3 all = splat3(0.0f);
     for (int i = 0; i < SKIN_RING_STEPS; ++i) {
         const float x = ((float(i) + 0.5f) * (2.0f / float(SKIN_RING_STEPS)) - 1.0f) * reach;
         const float d = 2.0f * radius * sin(0.5f * x);

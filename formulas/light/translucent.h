@@ -43,7 +43,7 @@ SHARED_FN float shadow_through(Translucency t, float visible)
 SHARED_FN vec3 scattered_albedo(vec3 albedo, vec3 color, float bias, float power, float nv)
 {
     const float rim = exp2(-power * nv * nv) + bias;
-    return min(albedo + color * rim, max(albedo, vec3(1.0f)));
+    return min(albedo + color * rim, max(albedo, splat3(1.0f)));
 }
 
 SHARED_END

@@ -86,7 +86,7 @@ SHARED_FN vec3 under_film(vec3 base, WaterFilm film, vec3 v, vec3 l)
     const float below = (1.0f - film.share * water_fresnel(nl)) * (1.0f - film.share * water_fresnel(nv));
     const float mirrored =
         film.share * film.lit * water_fresnel(clamp(dot(l, h), 0.0f, 1.0f)) * here * nl;
-    return base * below + vec3(mirrored);
+    return base * below + splat3(mirrored);
 }
 
 SHARED_END

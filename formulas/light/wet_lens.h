@@ -50,7 +50,7 @@ SHARED_FN LensDrop lens_drops(vec2 p, float amount, float time_s)
                                           sin(23.0f * p.x + 0.4f) + sin(37.0f * p.x - 23.0f * p.y));
     LensDrop best;
     best.cover = 0.0f;
-    best.shift = vec2(0.0f);
+    best.shift = splat2(0.0f);
     best.bright = 1.0f;
     for (int k = 0; k < 4; ++k) {
         const float cell = k < 2 ? 0.24f : 0.1f;

@@ -10,11 +10,11 @@ SHARED_BEGIN
 // Mixes 32 bits so that neighbouring inputs have unrelated outputs.
 SHARED_FN uint hash_u(uint x)
 {
-    x ^= x >> 16;
+    x ^= x >> 16u;
     x *= 0x7feb352du;
-    x ^= x >> 15;
+    x ^= x >> 15u;
     x *= 0x846ca68bu;
-    x ^= x >> 16;
+    x ^= x >> 16u;
     return x;
 }
 
@@ -26,7 +26,7 @@ SHARED_FN uint hash_u3(uint x, uint y, uint z)
 // 0..1, without 1.
 SHARED_FN float hash_f(uint x)
 {
-    return float(hash_u(x) >> 8) * (1.0f / 16777216.0f);
+    return float(hash_u(x) >> 8u) * (1.0f / 16777216.0f);
 }
 
 // Well spread over a pixel's neighbours (interleaved gradient) and over samples (golden ratio).

@@ -63,7 +63,7 @@ SHARED_FN WeatheredMaterial dry_material(DryMaterial dry)
 // water, n = 1.33, with a reflectance of 0.0659 from above and 0.4719 from below.
 SHARED_FN vec3 wet_albedo(vec3 dry)
 {
-    return dry * (0.9341f * 0.5281f) / (vec3(1.0f) - 0.4719f * dry);
+    return dry * (0.9341f * 0.5281f) / (splat3(1.0f) - 0.4719f * dry);
 }
 
 // Share of a surface that a film darkens so: all of what is matt. Below gloss (paint, glaze, polish) light
@@ -102,7 +102,7 @@ SHARED_FN WeatheredMaterial apply_water(WeatheredMaterial dry, vec2 film, float 
     wet.normal_mix = t3;
     const float smoothed = mix(dry.smoothness, mix(0.85f, 0.60f, pore_factor), t2);
     wet.smoothness = mix(smoothed, 0.9f, t2);
-    wet.specular = mix(dry.specular, vec3(0.02f), t2 * (1.0f - metalness));
+    wet.specular = mix(dry.specular, splat3(0.02f), t2 * (1.0f - metalness));
     return wet;
 }
 
@@ -121,6 +121,24 @@ SHARED_FN WeatheredMaterial apply_snow(WeatheredMaterial under, float cover, vec
     return snowy;
 }
 
+// Share of its albedo that melting snow keeps. Its grains grow and water fills the gaps between them: wet snow sends back
+// four fifths of what fresh snow does, and where it is thin at its edges, slush on what it lies on, a half (Oke 1987 has
+// 0.95 of fresh snow and 0.40 of old). The numbers between are ours.
+//   cover     sx
+//   melt_exp  of the weather of the frame, 0..1
+SHARED_FN float melting_snow(float cover, float melt_exp)
+{
+    const float thin = 1.0f - smooth_edge(0.45f, 1.0f, cover);
+    return 1.0f - saturate(melt_exp) * (0.2f + 0.3f * thin);
+}
+
+// Its water makes it smoother, up to that of a film on what is rough.
+SHARED_FN float melting_smoothness(float smoothness, float cover, float melt_exp)
+{
+    const float thin = 1.0f - smooth_edge(0.45f, 1.0f, cover);
+    return mix(smoothness, max(smoothness, 0.6f), saturate(melt_exp) * (0.3f + 0.7f * thin));
+}
+
 // Albedo with the light that snow scatters towards grazing eyes (Lux 2.02, diffuse scattering). facing:
 // cosine of the normal with the eye; cover: sx.
 SHARED_FN vec3 snow_scattered(vec3 albedo, WeatherLook look, float facing, float cover)
@@ -135,7 +153,7 @@ SHARED_FN WeatheredMaterial apply_frost(WeatheredMaterial under, float cover)
 {
     WeatheredMaterial frosty = under;
     frosty.albedo = mix(under.albedo, vec3(0.87f, 0.88f, 0.89f), 0.85f * cover);
-    frosty.specular = mix(under.specular, vec3(0.018f), cover);
+    frosty.specular = mix(under.specular, splat3(0.018f), cover);
     frosty.smoothness = mix(under.smoothness, 0.35f, cover);
     return frosty;
 }
@@ -146,7 +164,7 @@ SHARED_FN WeatheredMaterial apply_ice(WeatheredMaterial under, float ice)
 {
     WeatheredMaterial icy = under;
     icy.albedo = mix(under.albedo, vec3(0.52f, 0.57f, 0.61f), 0.4f * ice);
-    icy.specular = mix(under.specular, vec3(0.018f), ice);
+    icy.specular = mix(under.specular, splat3(0.018f), ice);
     icy.smoothness = mix(under.smoothness, 0.84f, ice);
     return icy;
 }
@@ -171,8 +189,8 @@ SHARED_FN WeatheredMaterial apply_weather(DryMaterial dry, SurfaceState state, W
     m = apply_water(m, vec2(max(moment.film_albedo * state.film, soaked),
                             mix(moment.film_smoothness, 0.65f, pouring) * state.film),
                     state.water, dry.water_color, dry.porosity);
-    m = apply_snow(m, state.snow, look.snow_color, look.snow_specular, state.snow_smoothness,
-                   dry.snow_opacity);
+    m = apply_snow(m, state.snow, look.snow_color * melting_snow(state.snow, moment.melt_exp), look.snow_specular,
+                   melting_smoothness(state.snow_smoothness, state.snow, moment.melt_exp), dry.snow_opacity);
     const float closed = closed_water(state);
     m.smoothness = mix(m.smoothness, 0.94f, closed);
     m = apply_ice(m, closed * moment.water_to_snow);

@@ -38,7 +38,7 @@ SHARED_FN float bead_seen(float cell_m, float pixel_m)
 // Three hundredths of numbers of one hash, each 0..1.
 SHARED_FN vec3 three_of_hash(uint h)
 {
-    return vec3(float(h & 1023u), float((h >> 10) & 1023u), float((h >> 20) & 1023u)) / 1023.0f;
+    return vec3(float(h & 1023u), float((h >> 10u) & 1023u), float((h >> 20u) & 1023u)) / 1023.0f;
 }
 
 // The ball of the cell of `p` (in cells, turned): its lean comes back in turned axes too.
@@ -51,7 +51,7 @@ SHARED_FN Beads bead_of_cell(vec3 p, vec3 normal, uint seed, float amount)
     const vec3 kind = three_of_hash(hash_u(h ^ 0x68bc21ebu));
     const float grown = saturate(1.6f * amount - 0.6f * kind.y) * saturate(6.0f * amount);
     const float radius = (0.2f + 0.25f * kind.x * kind.x) * grown;
-    const vec3 d = p - corner - (vec3(radius) + (1.0f - 2.0f * radius) * place);
+    const vec3 d = p - corner - (splat3(radius) + (1.0f - 2.0f * radius) * place);
     const float above = dot(d, normal);
     const vec3 along = d - normal * above;
     const float disc2 = radius * radius - above * above;

@@ -40,7 +40,7 @@ SHARED_FN float ground_moisture(vec2 xz, float width_m)
 SHARED_FN vec3 ground_tone(vec2 xz, float width_m, float strength)
 {
     const float dry = -strength * ground_moisture(xz, width_m);
-    return max(vec3(1.0f) + dry * vec3(0.60f, 0.46f, 0.41f), vec3(0.25f));
+    return max(splat3(1.0f) + dry * vec3(0.60f, 0.46f, 0.41f), splat3(0.25f));
 }
 
 // What the mesh of wide ground does not have of its relief, m: its triangles are metres wide, and no meadow is so even. 0

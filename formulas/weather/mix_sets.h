@@ -29,7 +29,7 @@ SHARED_FN vec4 ground_shares(vec4 weights, vec4 heights, float by_height)
 {
     const float sum = weights.x + weights.y + weights.z + weights.w;
     const vec4 plain = sum > 0.002f ? weights / max(sum, 0.002f) : vec4(1.0f, 0.0f, 0.0f, 0.0f);
-    vec4 b = plain * plain * (clamp(heights, vec4(0.0f), vec4(1.0f)) + vec4(0.001f));
+    vec4 b = plain * plain * (clamp(heights, splat4(0.0f), splat4(1.0f)) + splat4(0.001f));
     b *= b;
     b *= b;
     const float high = max(b.x + b.y + b.z + b.w, 1.0e-20f);
@@ -39,7 +39,7 @@ SHARED_FN vec4 ground_shares(vec4 weights, vec4 heights, float by_height)
 // Linear colour under a linear detail colour: sRGB 0.5 leaves it as it is (Lux has 4.5948, of a gamma of 2.2).
 SHARED_FN vec3 detail_color(vec3 color, vec3 detail, float share)
 {
-    return color * mix(vec3(1.0f), detail * 4.6720f, share);
+    return color * mix(splat3(1.0f), detail * 4.6720f, share);
 }
 
 // Tangent normal of a relief on a relief: slopes are added. share: of the detail.

@@ -53,7 +53,7 @@ struct WeatherMoment {
     float snow_liquid_fraction MOMENT_DEFAULT(0.0f);
     float snow_temperature_k MOMENT_DEFAULT(-1.0f);
     float snow_albedo MOMENT_DEFAULT(-1.0f);
-    vec2 wind_m_s MOMENT_DEFAULT(vec2(0.0f));
+    vec2 wind_m_s MOMENT_DEFAULT(splat2(0.0f));
     float relative_humidity MOMENT_DEFAULT(-1.0f);
     float pressure_pa MOMENT_DEFAULT(-1.0f);
     float visibility_m MOMENT_DEFAULT(20000.0f);
@@ -66,13 +66,13 @@ struct WeatherMoment {
 // How weather is drawn, whatever the weather: globals of a scenario (`frame.look.x` in shaders).
 struct WeatherLook {
     vec3 snow_color MOMENT_DEFAULT(vec3(0.92f, 0.94f, 0.97f));  // linear albedo; may pass 1
-    vec3 snow_specular MOMENT_DEFAULT(vec3(0.02f));             // F0
+    vec3 snow_specular MOMENT_DEFAULT(splat3(0.02f));  // F0
     // Repeats per metre of the snow's relief, its detail, its mask and the mask's detail.
     vec4 snow_tiling MOMENT_DEFAULT(vec4(0.35f, 1.7f, 0.09f, 0.83f));
     // Bumpiness of the snow and of its detail, times that of the material. Fresh snow has little of a hand's width.
     vec2 snow_strength MOMENT_DEFAULT(vec2(1.0f, 0.25f));
     // Light that snow scatters at grazing angles: brightens its albedo. Black: none.
-    vec3 snow_scatter_color MOMENT_DEFAULT(vec3(0.0f));
+    vec3 snow_scatter_color MOMENT_DEFAULT(splat3(0.0f));
     float snow_scatter_bias MOMENT_DEFAULT(0.0f);
     float snow_scatter_contraction MOMENT_DEFAULT(8.0f);
     // How far the snow line runs up and down the slope, times twice its blend range.

@@ -30,7 +30,7 @@ SHARED_FN vec2 pixels_along(vec3 way, vec3 dx, vec3 dy)
     const float y = dot(dy, way);
     const float det = xx * yy - xy * xy;
     // On edge the two run into each other: no way is known.
-    if (!(det > 1.0e-6f * xx * yy)) return vec2(0.0f);
+    if (!(det > 1.0e-6f * xx * yy)) return splat2(0.0f);
     return vec2(yy * x - xy * y, xx * y - xy * x) / det;
 }
 

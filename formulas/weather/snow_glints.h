@@ -22,7 +22,7 @@ SHARED_CONST float kFinestGlint_m = 0.002f;
 // A hill over a cell, 0 at its border, 1 in the mean.
 SHARED_FN float glint_hill(vec2 in_cell)
 {
-    const vec2 u = in_cell * (vec2(1.0f) - in_cell);
+    const vec2 u = in_cell * (splat2(1.0f) - in_cell);
     return 36.0f * u.x * u.y;
 }
 

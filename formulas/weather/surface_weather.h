@@ -11,10 +11,12 @@
 
 SHARED_BEGIN
 
+#ifndef SHARED_HAS_SATURATE
 SHARED_FN float saturate(float x)
 {
     return clamp(x, 0.0f, 1.0f);
 }
+#endif
 
 // smoothstep that is defined for equal edges: a step at `high`.
 SHARED_FN float smooth_edge(float low, float high, float x)

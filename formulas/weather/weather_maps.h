@@ -19,7 +19,7 @@ SHARED_FN vec4 rain_drops(vec2 uv, uint seed)
     const vec2 at = uv * float(kDropCells);
     const ivec2 cell = ivec2(floor(at));
     float envelope = 0.0f;
-    vec2 direction = vec2(0.0f);
+    vec2 direction = splat2(0.0f);
     float offset = 0.0f;
     for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {

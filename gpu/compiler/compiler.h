@@ -14,7 +14,7 @@ namespace petrichor::gpu {
 /// they were when the program was built.
 std::span<const ShaderText> embedded_texts();
 
-/// SPIR-V 1.6 of the embedded compute shader `main` with `preamble` before its first #include and
+/// SPIR-V 1.6 of the embedded compute or fragment shader `main` (NAME.frag.glsl) with `preamble` before its first #include and
 /// `own` texts beside the embedded ones.
 ///
 /// The compiler runs in a program of its own, with 30 s and 1 GiB. What it made is kept in `cache`

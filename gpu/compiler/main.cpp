@@ -63,12 +63,13 @@ std::vector<std::byte> compiled(const HelperInput& input)
 {
     const std::vector<ShaderText> texts = unpack_texts(input.bytes);
     if (texts.empty()) throw Error("no text was given", "Report this.");
-    glslang::TShader shader(EShLangCompute);
+    const EShLanguage stage = texts[0].name.ends_with(".frag.glsl") ? EShLangFragment : EShLangCompute;
+    glslang::TShader shader(stage);
     const char* text = texts[0].text.data();
     const int length = static_cast<int>(texts[0].text.size());
     const char* name = texts[0].name.c_str();
     shader.setStringsWithLengthsAndNames(&text, &length, &name, 1);
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+    shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     Texts includer(texts);
@@ -82,7 +83,7 @@ std::vector<std::byte> compiled(const HelperInput& input)
     if (!program.link(messages)) throw Error(errors_in(program.getInfoLog()), fix);
     std::vector<unsigned int> words;
     glslang::SpvOptions options;
-    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words, &options);
+    glslang::GlslangToSpv(*program.getIntermediate(stage), words, &options);
     const auto bytes = std::as_bytes(std::span(words));
     return {bytes.begin(), bytes.end()};
 }

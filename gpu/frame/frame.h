@@ -137,6 +137,7 @@ struct FrameSettings : FrameSwitches {
     float bloom = 0.0f;  ///< 0..1: share of light that the lens scatters around; display only
     float wet_lens = 0.0f;  ///< 0..1: drops on its glass while it rains; display only
     SurfacePath surface_path = SurfacePath::Auto;
+    bool light_prepass = true;  ///< users' own lighting models that can gather light before they compose it do
     bool coarse_shadows = false;  ///< one map of the sun holds all of the view: for small pictures
     bool all_lights = false;  ///< every pixel asks every light: slow, for checking light lists
     std::vector<std::string> aovs;  ///< names from aov_table()

@@ -18,7 +18,7 @@ constexpr int kStops = 41;
 constexpr int kStepsAStop = 8;
 constexpr std::uint64_t kSurface = 4;
 constexpr std::uint64_t kSky = 1;
-constexpr float kSnowStops = 1.3f;
+constexpr float kSnowStops = 1.3f, kSnowFieldStops = 0.7f;  // by eye
 constexpr float kDayEv100 = 10.0f, kNightEv100 = 4.0f;
 constexpr float kClear = 0.3f, kOvercast = 0.9f;
 constexpr float kInTheSun = 0.4f;  // of flat_stops() that is left under a clear sky; by eye
@@ -113,7 +113,8 @@ std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
     const float day = std::clamp((ev100 - kNightEv100) / (kDayEv100 - kNightEv100), 0.0f, 1.0f);
     const float grey =
         kInTheSun + (1.0f - kInTheSun) * std::clamp((cloud - kClear) / (kOvercast - kClear), 0.0f, 1.0f);
-    return ev100 - (kSnowStops * share + grey * shared::flat_stops(static_cast<float>(above))) * day;
+    const float snow_stops = (kSnowStops + kSnowFieldStops * share) * share;
+    return ev100 - (snow_stops + grey * shared::flat_stops(static_cast<float>(above))) * day;
 }
 
 std::optional<glm::vec3> metered_light(const MeteredSurfaces& surfaces)

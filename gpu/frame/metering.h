@@ -43,7 +43,7 @@ std::vector<std::string> metering_aovs(MeterOf what);
 /// the sun is even, and no grey day.
 ///
 ///   snow  0..1 of each pixel, none: no snow. A meter takes white for grey; as a photographer adds a stop or two for a
-///         snow field, what is metered falls by 1.3 stops times the share of the surfaces that is snow, by day, too.
+///         snow field, what is metered falls by (1.3 + 0.7 s) s stops for a share s of snow, by day, too.
 ///   cloud  0..1 of the sky
 std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
                                    std::span<const float> snow = {}, float cloud = 1.0f);

@@ -25,12 +25,14 @@
 #include "gpu/lighting/models/standard.glsl"
 #include "gpu/lighting/models/unlit.glsl"
 #include "gpu/lighting/models/unlit_shadowed.glsl"
-// The run-time compiler puts the rows and files of a user's own models here.
+// The run-time compiler puts the rows and files of a user's own models here, and the rows of those of them
+// that gather light first.
 #ifdef OWN_LIGHTING_MODELS
 #include "gpu/lighting/own_models.glsl"
 #define LIGHTING_MODELS(ROW) BUILT_IN_LIGHTING_MODELS(ROW) OWN_LIGHTING_MODELS(ROW)
 #else
 #define LIGHTING_MODELS(ROW) BUILT_IN_LIGHTING_MODELS(ROW)
+#define GATHERING_LIGHTING_MODELS(ROW)
 #endif
 #endif
 

@@ -30,7 +30,17 @@ std::uint32_t OwnSurfaces::number_of(const std::string& name) const
     return 0;
 }
 
-std::vector<std::uint32_t> OwnSurfaces::compile() const
+std::vector<std::uint32_t> OwnSurfaces::compile_resolve() const
+{
+    return compile("gpu/passes/surface_resolve/surface_resolve.comp.glsl");
+}
+
+std::vector<std::uint32_t> OwnSurfaces::compile_transparent() const
+{
+    return compile("gpu/passes/transparent/transparent.frag.glsl");
+}
+
+std::vector<std::uint32_t> OwnSurfaces::compile(const std::string& main) const
 {
     if (own_.empty()) return {};
     std::string rows = "#define OWN_SURFACES(ROW)";
@@ -44,8 +54,7 @@ std::vector<std::uint32_t> OwnSurfaces::compile() const
         texts.push_back({include, own_[i].text, own_[i].path});
     }
     texts.insert(texts.begin(), list);
-    return compile_shader("gpu/passes/surface_resolve/surface_resolve.comp.glsl", rows + "\n", texts,
-                          user_cache());
+    return compile_shader(main, rows + "\n", texts, user_cache());
 }
 
 }  // namespace petrichor::gpu

@@ -23,9 +23,13 @@ public:
 
     /// SPIR-V of the pass that resolves visible surfaces with users' own in it; empty when there are
     /// none. Throws Error with the user's file and line.
-    std::vector<std::uint32_t> compile() const;
+    std::vector<std::uint32_t> compile_resolve() const;
+    /// .. of the pass that draws layers of what lets light through.
+    std::vector<std::uint32_t> compile_transparent() const;
 
 private:
+    std::vector<std::uint32_t> compile(const std::string& main) const;
+
     std::vector<OwnText> own_;
 };
 

@@ -52,8 +52,9 @@ float wrapped(float t, Wrap wrap)
 }
 
 // Linear colour of a texture at a place, from a level of at most 64 texels a side.
-glm::vec3 texel_at(const Texture& texture, glm::vec2 uv)
+glm::vec3 texel_at(const Texture& stored, glm::vec2 uv)
 {
+    const Texture& texture = stored.plain ? *stored.plain : stored;
     std::size_t level = 0;
     int width = texture.width;
     int height = texture.height;
@@ -66,8 +67,8 @@ glm::vec3 texel_at(const Texture& texture, glm::vec2 uv)
     const auto pick = [](float t, int size) {
         return std::clamp(static_cast<int>(t * static_cast<float>(size)), 0, size - 1);
     };
-    const int x = pick(wrapped(uv.x, texture.wrap_u), width);
-    const int y = pick(wrapped(uv.y, texture.wrap_v), height);
+    const int x = pick(wrapped(uv.x, stored.wrap_u), width);
+    const int y = pick(wrapped(uv.y, stored.wrap_v), height);
     const auto at = static_cast<std::size_t>(y * width + x);
     const std::byte* bytes = levels[level].data();
     glm::vec3 color(0.0f);

@@ -14,8 +14,8 @@ namespace petrichor::gpu {
 /// same mean intensity where they are closed around. Panes beside each other in one plane are one.
 ///
 ///   radiance   of a triangle: that of the material, times its texture at the triangle's middle;
-///              below 2 % of the brightest it is left out. Block-compressed textures are not read:
-///              what they make glow is seen, and lights nothing
+///              below 2 % of the brightest it is left out. Of blocks their plain level is read
+///              (Texture::plain); without one they are seen, and light nothing
 ///   left out   what encloses a point or spot light of the scene, which stands for it already; what
 ///              bends; what sends less than a thousandth of the whole; all but the brightest 256.
 ///

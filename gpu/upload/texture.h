@@ -50,6 +50,9 @@ struct Texture {
     Wrap wrap_v = Wrap::Repeat;
     bool nearest = false;
     std::vector<std::vector<std::byte>> mips;
+    /// Of colours in blocks: a level of them in plain texels, for those who read them on the CPU (what glows lights its
+    /// surroundings). Of 64 texels a side at most, where there is such a level.
+    std::shared_ptr<const Texture> plain = {};
     /// Instead of mips: levels that lie in memory which `holder` keeps.
     std::vector<std::span<const std::byte>> views = {};
     std::shared_ptr<const void> holder = {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "formulas/weather/surface_weather.h"
 #include "scene/snow/detail/borders.h"
 #include "scene/snow/detail/settle.h"
+#include "scene/snow/detail/sheet.h"
 #include "scene/subdivide/subdivide.h"
 
 namespace petrichor::scene {
@@ -27,6 +29,12 @@ constexpr int kRays = 16;
 constexpr float kHidden = 0.1f;       // of the rays
 constexpr float kCone = 0.6f;         // cosine from the zenith of the farthest ray
 constexpr float kBuried_m = 0.06f;    // what stands so high over level ground hides nothing from the sky
+constexpr float kSkin_m = 0.002f;     // rays start so far over a surface
+constexpr float kRests_m = 0.02f;     // what lies so near the ground rests on it
+constexpr int kInto = 2;              // edges that snow goes on into what stands in it
+constexpr int kRounds = 3;            // of finer cuts where a shelter ends ..
+constexpr float kOtherSky = 0.2f;     // .. ends of an edge see so much more of the sky one than the other ..
+constexpr float kFineSky_m = 0.06f;   // .. and are so far apart
 constexpr float kLevel = 0.85f;       // a gutter still is
 constexpr float kCoarser = 1.41421356f;
 constexpr int kTries = 12;
@@ -34,6 +42,7 @@ constexpr float kAlong = 5.0f;        // times finer across an edge than along i
 constexpr float kAlong_m = 0.2f;
 constexpr float kTrack_m = 0.05f;     // edges where the snow is trodden
 constexpr float kBridge_m = 0.018f;   // caps reach so far into walls and over joints
+constexpr float kMeet_m = 0.004f;     // surfaces so near to each other meet
 constexpr int kSpread = 12;           // edges that a support is told over
 
 float nearest_eye_m(const SnowCapOptions& options, const vec3& p)
@@ -160,12 +169,55 @@ std::array<vec3, kRays> sky_rays()
     return rays;
 }
 
-// Share of the sky overhead that points see, into w of _WEATHER. A corner is looked at a bit within its
-// triangle: it may lie in a wall.
-void look_up(CutMesh& mesh, const Tracer& tracer, Keeper keeper)
+// Ground goes on below what stands on it.
+bool inside_solid(const Tracer& tracer, const vec3& at)
+{
+    vec3 from = at + vec3(0.0f, kSkin_m, 0.0f);
+    RayHit up = tracer.nearest({from, vec3(0.0f, 1.0f, 0.0f)});
+    if (up.hit() && !up.back && up.distance_m < kRests_m) {  // on its own underside
+        from.y += up.distance_m + kSkin_m;
+        up = tracer.nearest({from, vec3(0.0f, 1.0f, 0.0f)});
+    }
+    if (!up.hit() || !up.back) return false;
+    if (!tracer.triangles().double_sided(up.triangle)) return true;
+    // What has two sides may be a leaf: one is not within it.
+    for (const vec3& way : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) {
+        const RayHit side = tracer.nearest({from + vec3(0.0f, std::min(kSkin_m, 0.5f * up.distance_m), 0.0f), way});
+        if (!side.hit() || !side.back) return false;
+    }
+    return true;
+}
+
+// What has been seen of the sky from a place, by its bits.
+struct PlaceHash {
+    std::size_t operator()(const vec3& p) const
+    {
+        std::size_t h = 0;
+        for (const float v : {p.x, p.y, p.z}) h = h * 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint32_t>(v + 0.0f);
+        return h ^ (h >> 29);
+    }
+};
+using Seen = std::unordered_map<vec3, float, PlaceHash>;
+
+// Share of the sky overhead that points see, into w of _WEATHER, but for those `seen` already. A corner is looked at a bit within
+// its triangle: it may lie in a wall.
+void look_up(CutMesh& mesh, const Tracer& tracer, Keeper keeper, Seen& seen)
 {
     const auto rays = sky_rays();
-    std::vector<float> sum(mesh.normals.size(), 0.0f), count(mesh.normals.size(), 0.0f);
+    const std::size_t points = mesh.normals.size();
+    std::vector<float> sum(points, 0.0f), count(points, 0.0f);
+    std::vector<bool> known(points, false), buried(points, false);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const Primitive& p = mesh.primitives[i];
+        for (std::size_t v = 0; v < mesh.points[i].size(); ++v) {
+            const auto found = seen.find(p.positions[v]);
+            if (found == seen.end()) continue;
+            const std::uint32_t point = mesh.points[i][v];
+            known[point] = true;
+            sum[point] = found->second;
+            count[point] = 1.0f;
+        }
+    }
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& p = mesh.primitives[i];
         for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
@@ -175,11 +227,15 @@ void look_up(CutMesh& mesh, const Tracer& tracer, Keeper keeper)
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::uint32_t v = p.indices[k + c];
                 const std::uint32_t point = mesh.points[i][v];
-                if (count[point] >= 3.0f) continue;
+                if (known[point] || count[point] >= 3.0f) continue;
                 const vec3 way = middle - p.positions[v];
                 const float length = glm::length(way);
-                const vec3 from = p.positions[v] + way * std::min(0.08f / std::max(length, 1.0e-6f), 0.9f) +
-                                  vec3(0.0f, level ? kBuried_m : 0.015f, 0.0f);
+                const vec3 at = p.positions[v] + way * std::min(0.08f / std::max(length, 1.0e-6f), 0.9f);
+                if (inside_solid(tracer, at)) {
+                    buried[point] = true;
+                    continue;
+                }
+                const vec3 from = at + vec3(0.0f, level ? kBuried_m : 0.015f, 0.0f);
                 int open = 0;
                 for (const vec3& ray : rays) open += tracer.blocked({from, ray}) ? 0 : 1;
                 sum[point] += static_cast<float>(open) / kRays;
@@ -187,11 +243,29 @@ void look_up(CutMesh& mesh, const Tracer& tracer, Keeper keeper)
             }
         }
     }
+    std::vector<float> sky(points, 0.0f);
+    for (std::size_t i = 0; i < points; ++i) {
+        sky[i] = sum[i] / std::max(count[i], 1.0f);
+        if (count[i] > 0.0f) buried[i] = false;
+    }
+    // Snow goes on into what stands in it.
+    for (int pass = 0; pass < kInto; ++pass) {
+        std::vector<float> most(sky);
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            const Primitive& p = mesh.primitives[i];
+            for (std::size_t k = 0; k < p.indices.size(); ++k) {
+                const std::uint32_t a = mesh.points[i][p.indices[k]], b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
+                if (buried[a]) most[a] = std::max(most[a], sky[b]);
+                if (buried[b]) most[b] = std::max(most[b], sky[a]);
+            }
+        }
+        sky = std::move(most);
+    }
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         Primitive& p = mesh.primitives[i];
         for (std::size_t v = 0; v < mesh.points[i].size(); ++v) {
-            const std::uint32_t point = mesh.points[i][v];
-            p.weather[v].w = sum[point] / std::max(count[point], 1.0f);
+            p.weather[v].w = sky[mesh.points[i][v]];
+            seen[p.positions[v]] = p.weather[v].w;
         }
         // What sees none of it, within houses and under eaves, has no cap.
         keeper.keep(mesh, i, [&](std::size_t k) {
@@ -199,6 +273,15 @@ void look_up(CutMesh& mesh, const Tracer& tracer, Keeper keeper)
             return !(std::max({see(0), see(1), see(2)}) < kHidden);
         });
     }
+}
+
+// Which triangle of the first mesh each is a part of, after a second cut.
+std::vector<std::vector<std::uint32_t>> composed(const std::vector<std::vector<std::uint32_t>>& first,
+                                                 std::vector<std::vector<std::uint32_t>> second)
+{
+    for (std::size_t i = 0; i < second.size(); ++i)
+        for (std::uint32_t& origin : second[i]) origin = first[i][origin];
+    return second;
 }
 
 float smooth_noise(const vec3& p, float cell_m, std::uint32_t seed)
@@ -305,6 +388,7 @@ float swell(const vec3& at, float size_m, std::uint32_t seed, float edge_m)
 }
 
 // What of the depth lies at each point.
+// broad: at first what shelter leaves, on any slope.
 void fill_shares(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals, const SnowCapOptions& options)
 {
     caps.points.resize(normals.size());
@@ -317,12 +401,10 @@ void fill_shares(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& n
             const float sky = p.weather[v].w;
             const float ragged = 0.3f * (smooth_noise(point.base_m, 0.17f, 91u) - 0.5f);
             const float open = shared::smooth_edge(kHidden, 0.8f, sky + ragged * std::min(1.0f, 4.0f * (1.0f - sky)));
-            // EN 1991-1-3: all of it up to 30 degrees, none from 60 on.
-            const float up = std::clamp(normals[number].y, 0.0f, 1.0f);
-            const float slope = std::clamp((1.04719755f - std::acos(up)) / 0.52359878f, 0.0f, 1.0f);
+            const float slope = detail::snow_on_slope(normals[number].y);
             const float far = nearest_eye_m(options, point.base_m) / options.reach_m;
-            const float pressed = options.pressed ? options.pressed(point.base_m) : 0.0f;
-            point.share = open * slope * (1.0f - pressed) * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
+            point.broad = open * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
+            point.share = point.broad * slope;
         }
     }
 }
@@ -340,9 +422,9 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const Grids& grids, const 
         const vec3& normal = normals[number];
         if (const NearEdge edge = grids.edges.nearest(at, normal); edge.border != nullptr) {
             point.edge_m = edge.distance_m;
+            point.drop_m = edge.border->drop_m;
             point.out = edge.border->out;
             point.beyond = edge.border->beyond;
-            point.above = edge.border->above;
         }
         point.support_m = point.edge_m;
         if (const NearEdge border = grids.closed.nearest(at, normal); border.distance_m < 1.0e-3f)
@@ -359,6 +441,32 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const Grids& grids, const 
         point.uneven = 0.78f + 0.3f * swell(at, 1.7f, 11u, longest[number]) +
                        0.14f * swell(at, 0.43f, 12u, longest[number]);
     }
+}
+
+// What tracks press down, at last: the snow around them does not know of them.
+void tread(SnowCaps& caps, const SnowCapOptions& options)
+{
+    if (!options.pressed) return;
+    for (SnowCaps::Point& point : caps.points) {
+        const float left = 1.0f - options.pressed(point.base_m);
+        point.share *= left;
+        point.broad *= left;
+    }
+}
+
+// Surfaces that meet reach over each other a little: on a slope their borders would stand off each other.
+void narrow_bridges(SnowCaps& caps, const std::vector<detail::Joint>& joints)
+{
+    std::vector<bool> meets(caps.points.size(), false);
+    for (const detail::Joint& joint : joints) {
+        const SnowCaps::Point &here = caps.points[joint.here], &there = caps.points[joint.beyond];
+        const vec2 way(there.base_m.x - here.base_m.x, there.base_m.z - here.base_m.z);
+        const float length = glm::length(here.bridge_m);
+        const bool opposite = glm::dot(here.bridge_m, there.bridge_m) < -0.7f * length * glm::length(there.bridge_m);
+        meets[joint.here] = meets[joint.here] || (opposite && std::abs(glm::dot(way, here.bridge_m)) < kMeet_m * length);
+    }
+    for (std::size_t i = 0; i < meets.size(); ++i)
+        if (meets[i]) caps.points[i].bridge_m *= 0.5f;
 }
 
 // Whether tracks cross an edge.
@@ -424,7 +532,27 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         mesh = subdivide(ground.primitives, coarse);
     }
     leave_out_ledges(mesh, tracer, Keeper(ground));
-    look_up(mesh, tracer, Keeper(ground));
+    Seen seen;
+    look_up(mesh, tracer, Keeper(ground), seen);
+    // Finer where a shelter ends: at the foot of what stands on large triangles.
+    std::vector<std::vector<std::uint32_t>> first_cut = std::move(mesh.origins);
+    for (int round = 0; round < kRounds; ++round) {
+        SubdivideOptions at_shelters = coarse;
+        at_shelters.most_levels = 1;
+        at_shelters.most_triangles = own + options.most_triangles / 2;
+        at_shelters.too_long = [&](const vec3& a, const vec3& b) {
+            const auto at_a = seen.find(a), at_b = seen.find(b);
+            if (at_a == seen.end() || at_b == seen.end() || std::abs(at_a->second - at_b->second) < kOtherSky) return false;
+            const float away = nearest_eye_m(options, 0.5f * (a + b));
+            return glm::distance(a, b) > std::max(kFineSky_m, away * 0.02f);
+        };
+        CutMesh finer = subdivide(mesh.primitives, at_shelters);
+        if (finer.limited) break;
+        mesh = std::move(finer);
+        mesh.origins = composed(first_cut, std::move(mesh.origins));
+        look_up(mesh, tracer, Keeper(ground), seen);
+        first_cut = std::move(mesh.origins);
+    }
     detail::Borders borders = detail::borders_of(mesh, tracer);
     EdgeGrid edges(std::move(borders.open));
     const EdgeGrid slots(std::move(borders.slots));
@@ -436,7 +564,6 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     fine.most_levels = 8;
     fine.most_triangles = own + options.most_triangles;
     const std::vector<Primitive> looked = std::move(mesh.primitives);
-    const std::vector<std::vector<std::uint32_t>> first_cut = std::move(mesh.origins);
     fine.too_long = [&](const vec3& a, const vec3& b) {
         const vec3 middle = 0.5f * (a + b);
         const float away = nearest_eye_m(options, middle);
@@ -475,7 +602,9 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     find_supports(caps, mesh);
     const std::vector<detail::Joint> joints = detail::joints_of(caps);
     detail::hold_by_repose(caps, mesh, normals, joints);
-    detail::fill_relief(caps, mesh, joints, tracer);
+    narrow_bridges(caps, joints);
+    detail::fill_relief(caps, mesh, joints, tracer, options);
+    tread(caps, options);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         Primitive& p = mesh.primitives[i];
         SnowCaps::Part part;

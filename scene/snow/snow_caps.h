@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_SCENE_SNOW_SNOW_CAPS_H
 #define PETRICHOR_SCENE_SNOW_SNOW_CAPS_H
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,20 +28,24 @@ struct SnowCapOptions {
 struct SnowCaps {
     static constexpr std::uint32_t kUncovered = 0xffffffffu;
     static constexpr std::uint32_t kNone = 0xffffffffu;
+    /// Depths that `fill_m` is told for; between them and 0 it is linear.
+    static constexpr std::size_t kFills = 4;
+    static constexpr std::array<float, kFills> kFillDepths_m{0.03f, 0.07f, 0.14f, 0.28f};
     struct Point {
         glm::vec3 base_m{0.0f};       ///< on the scene
-        float share = 0.0f;           ///< of the depth on open ground, by shelter and slope
+        float share = 0.0f;           ///< of the depth on open ground, by shelter and slope ..
+        float broad = 0.0f;           ///< .. and of deep snow, which knows no slope of a bevel
         float edge_m = 1.0e9f;        ///< to the nearest edge where the snow ends in the open
         float support_m = 1.0e9f;     ///< how wide the ground below is: half a post's width
         glm::vec2 out{0.0f};          ///< towards that edge, world x and z
         float most_m = 1.0e9f;        ///< of snow that holds here, by the angle of repose from the edges
-        float fill_m = 0.0f;          ///< up to the ground without its stones and joints: what deep snow lies on
+        std::array<float, kFills> fill_m{};  ///< up to the ground as snow of a depth smooths it: without joints, stones, steps
+        float drop_m = 1.0e9f;        ///< of that edge, or of the one that `most_m` is from: how far below it lies what is beyond
         float uneven = 1.0f;          ///< times the depth
         glm::vec2 bridge_m{0.0f};     ///< at a border: into the wall, over the joint or the slot
         float slot_m = 1.0e9f;        ///< to the nearest slot, as of a grating ..
         float gap_m = 1.0e9f;         ///< .. and how wide it is
-        std::uint32_t beyond = kNone;  ///< the point on what lies beyond the edge, kNone: nothing near below it ..
-        std::uint32_t above = kNone;  ///< .. and one whose snow it sheds
+        std::uint32_t beyond = kNone;  ///< the point on what lies beyond that edge, kNone: nothing near below it
         float low_m = 1.0e9f;         ///< to the nearest edge of a step as low as a board ..
         std::uint32_t below = kNone;  ///< .. and the point down there
     };
@@ -78,6 +83,10 @@ bool holds_snow_body(const Material& material);
 /// Drawn snow is at most about so deep: what stands in the scene would drown.
 inline constexpr float kDeepestSnow_m = 0.4f;
 float drawn_snow_m(float depth_m);
+
+/// Share of a step that snow of a depth closes: 1 of steps no higher than that, 0 from 1.75 of it on: what rounding takes
+/// from an edge, (1 - pi / 4) of the depth squared a metre, is enough for a bank of 55 degrees there.
+float step_closed(float step_m, float depth_m);
 
 /// The caps under snow.
 struct SnowShape {

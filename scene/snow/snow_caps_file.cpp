@@ -9,8 +9,8 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x35706163;  // "cap5"
-static_assert(sizeof(SnowCaps::Point) == 19 * sizeof(float), "no padding: bytes are compared");
+constexpr std::uint32_t kMagic = 0x36706163;  // "cap6"
+static_assert(sizeof(SnowCaps::Point) == 23 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
     std::vector<std::byte> bytes;

@@ -1,10 +1,18 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "formulas/weather/surface_weather.h"
 #include "scene/snow/snow_caps.h"
 
 namespace petrichor::scene {
+
+float step_closed(float step_m, float depth_m)
+{
+    if (!(step_m < 1.75f * depth_m)) return 0.0f;
+    return 1.0f - shared::smooth_edge(1.0f, 1.75f, step_m / depth_m);
+}
+
 namespace {
 
 using glm::vec3;
@@ -24,17 +32,32 @@ float rounded(float s)
     return std::sqrt(std::max(1.0f - left * left, 0.0f));
 }
 
-// What rounding takes from an edge, (1 - pi / 4) of its depth squared a metre, leans against the step below it: a bank of
-// moist snow, 55 degrees steep. It is enough for a step that is so high over the snow at its foot, in depths.
-constexpr float kBankSlope = 1.428f;
-constexpr float kBank = 0.7829f;      // sqrt(2 kBankSlope (1 - pi / 4))
 constexpr float kAtRim_m = 1.0e-3f;
-constexpr float kIntoSnow_m = 0.045f; // banks end so deep in the snow at their foot
+constexpr float kBankSlope = 1.428f;  // of what leans against a step: moist snow, 55 degrees
+constexpr float kIntoSnow_m = 0.055f; // it ends so deep in the snow at its foot
+constexpr float kMostOut_m = 0.06f;
 
-// Deep snow forgets the stones below it.
-float filled_m(const SnowCaps::Point& p, float thickness_m)
+// Deep snow forgets the ground below it.
+float filled_m(const SnowCaps::Point& p, float depth_m)
 {
-    return p.fill_m * shared::smooth_edge(0.01f, 0.06f, thickness_m);
+    float from_m = 0.0f, from = 0.0f;
+    for (std::size_t k = 0; k < SnowCaps::kFills; ++k) {
+        const float to_m = SnowCaps::kFillDepths_m[k];
+        if (depth_m < to_m) return from + (p.fill_m[k] - from) * (depth_m - from_m) / (to_m - from_m);
+        from_m = to_m;
+        from = p.fill_m[k];
+    }
+    return from;
+}
+
+// What falls at a point: shoulders of stones, which hold little, are lost below deep snow.
+float fallen_m(const SnowCaps::Point& p, float depth_m)
+{
+    const float drawn = drawn_snow_m(depth_m) * p.uneven;
+    if (p.share == p.broad) return drawn * p.share;
+    const float inside = p.edge_m < 0.25f ? shared::smooth_edge(0.05f, 0.25f, p.edge_m) : 1.0f;
+    const float open = inside < 1.0f ? inside + step_closed(p.drop_m, drawn) * (1.0f - inside) : 1.0f;
+    return drawn * (p.share + shared::smooth_edge(0.0f, 0.17f, drawn) * open * (p.broad - p.share));
 }
 
 // How far in a cap is rounded off.
@@ -69,73 +92,84 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     shape.positions.reserve(count);
     shape.thickness_m.reserve(count);
     shape.deep_m.reserve(count);
-    // As if nothing lay beyond the edges, and steps were level.
-    std::vector<float> fallen(count), top(count);
+    // As if nothing lay beyond the edges.
+    std::vector<float> fallen(count), closing(count), bare(count), top(count);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
-        fallen[i] = drawn_snow_m(depth_m[i]) * p.uneven * p.share;
-        const float held = lesser(std::min(fallen[i], kMostOverWidth * p.support_m), p.most_m);
-        const float thickness = held * rounded(p.edge_m / width_m(p, held));
-        top[i] = p.base_m.y + thickness + filled_m(p, thickness);
+        fallen[i] = fallen_m(p, depth_m[i]);
+        const float closed = closing[i] = step_closed(p.drop_m, fallen[i]);
+        const float open = lesser(std::min(fallen[i], kMostOverWidth * p.support_m), p.most_m);
+        const float held = open + closed * (fallen[i] - open);
+        const float round = p.edge_m < held ? rounded(p.edge_m / width_m(p, held)) : 1.0f;
+        bare[i] = p.base_m.y + held * (round + closed * (1.0f - round));
+        top[i] = bare[i] + filled_m(p, fallen[i]);
     }
+    std::vector<std::uint8_t> sunk_rim(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
         // How far what lies beyond the edge reaches over it.
         const float beyond = p.beyond != SnowCaps::kNone ? top[p.beyond] - p.base_m.y : -1.0e9f;
         const float over = std::clamp(beyond, 0.0f, fallen[i]);
-        const float held = lesser(std::min(fallen[i], kMostOverWidth * p.support_m + over), p.most_m + over);
-        // Or how far what the edge sheds closes the step down to it.
-        const float step = std::max(-beyond, 0.0f);
-        float bank = 0.0f;
-        if (p.beyond != SnowCaps::kNone && p.above != SnowCaps::kNone) {
-            const float shed = fallen[p.above];
-            bank = (1.0f - shared::smooth_edge(0.35f * kBank * shed, kBank * shed, step)) *
-                   shared::smooth_edge(0.01f, 0.03f, std::min(shed, fallen[p.beyond]));
-        }
+        // Or how far there is one sheet over the step, where as much lies at its foot.
+        const float foot = p.beyond != SnowCaps::kNone ? bare[p.beyond] - caps.points[p.beyond].base_m.y : 0.0f;
+        const float closed = closing[i] > 0.0f ? closing[i] * shared::smooth_edge(0.35f, 0.8f, foot / fallen[i]) : 0.0f;
+        const float open = lesser(std::min(fallen[i], kMostOverWidth * p.support_m + over), p.most_m + over);
+        const float held = open + closed * (fallen[i] - open);
         const bool rim = p.edge_m < kAtRim_m;
-        const float deep = bank > 0.0f && p.edge_m < fallen[p.above] ? std::max(held, bank * fallen[p.above]) : held;
         const float width = width_m(p, held);
         const float s = p.edge_m / width;
         const float slot = std::clamp(2.0f * held / (kClosed * p.gap_m) - 1.0f, 0.0f, 1.0f);
-        const float kept = std::min(over / std::max(held, 1.0e-6f), 1.0f);
+        const float kept = std::max(closed, std::min(over / std::max(held, 1.0e-6f), 1.0f));
         const float round = rounded(s), round_slot = rounded(p.slot_m / width);
         // The edge of a low step is lost where the snow below it reaches half up its own.
-        const float lower = p.below != SnowCaps::kNone ? std::max(top[p.below] - p.base_m.y, 0.0f) : 0.0f;
+        const float lower = p.below != SnowCaps::kNone ? std::max(bare[p.below] - p.base_m.y, 0.0f) : 0.0f;
         const float lost = shared::smooth_edge(0.0f, 0.5f, lower / std::max(held, 1.0e-6f));
         const float round_low = rounded(p.low_m / width);
         const float thickness = held * (round_low + lost * (1.0f - round_low)) * (round + kept * (1.0f - round)) * (round_slot + slot * (1.0f - round_slot));
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
-        at.y += thickness - sunk + filled_m(p, thickness);
+        at.y += thickness - sunk + (top[i] - bare[i]);
         const float bridged = p.slot_m < 1.0e-3f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;
-        if (rim && bank > 0.0f) {
-            at.y -= bank * (step + kIntoSnow_m);
-            const float out = bank * (step + kIntoSnow_m) / kBankSlope;
+        const float bank = rim && p.beyond != SnowCaps::kNone ? shared::smooth_edge(0.0f, 0.4f, closed) : 0.0f;
+        if (bank > 0.0f) {
+            const float step = std::max(at.y - top[p.beyond], 0.0f) + kIntoSnow_m;
+            at.y -= bank * step;
+            const float out = bank * std::min(step / kBankSlope, kMostOut_m);
             at.x += p.out.x * out;
             at.z += p.out.y * out;
+            sunk_rim[i] = bank > 0.5f ? 1 : 0;
         } else if (s < 1.0f && held > 0.0f) {
             const float bulge = 3.5f * std::sqrt(s) * (1.0f - s) * (1.0f - s);
-            const float out = std::min(kOverhang * held, kMostOverhang_m) * bulge * (1.0f - std::max(kept, bank));
+            const float out = std::min(kOverhang * held, kMostOverhang_m) * bulge * (1.0f - kept);
             at.x += p.out.x * out;
             at.z += p.out.y * out;
         }
         shape.positions.push_back(at);
         shape.thickness_m.push_back(thickness);
-        shape.deep_m.push_back(deep);
+        shape.deep_m.push_back(held);
         shape.thickest_m = std::max(shape.thickest_m, thickness);
     }
     shape.normals.assign(count, vec3(0.0f));
+    // What sinks into the snow at its foot is not seen, and bends no light at the edge.
+    std::vector<std::array<std::uint32_t, 3>> sinking;
     for (std::size_t k = 0; k + 2 < caps.indices.size(); k += 3) {
-        const std::uint32_t a = caps.corner_points[caps.indices[k]];
-        const std::uint32_t b = caps.corner_points[caps.indices[k + 1]];
-        const std::uint32_t c = caps.corner_points[caps.indices[k + 2]];
-        const vec3 face = glm::cross(shape.positions[b] - shape.positions[a],
-                                     shape.positions[c] - shape.positions[a]);
-        shape.normals[a] += face;
-        shape.normals[b] += face;
-        shape.normals[c] += face;
+        const std::array t{caps.corner_points[caps.indices[k]], caps.corner_points[caps.indices[k + 1]],
+                           caps.corner_points[caps.indices[k + 2]]};
+        if (sunk_rim[t[0]] || sunk_rim[t[1]] || sunk_rim[t[2]]) {
+            sinking.push_back(t);
+            continue;
+        }
+        const vec3 face = glm::cross(shape.positions[t[1]] - shape.positions[t[0]], shape.positions[t[2]] - shape.positions[t[0]]);
+        for (const std::uint32_t i : t) shape.normals[i] += face;
+    }
+    for (const auto& t : sinking) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!sunk_rim[t[c]]) continue;
+            for (const std::size_t o : {(c + 1) % 3, (c + 2) % 3})
+                if (!sunk_rim[t[o]]) shape.normals[t[c]] += shape.normals[t[o]];
+        }
     }
     for (vec3& n : shape.normals) {
         const float length = glm::length(n);

@@ -12,6 +12,15 @@ cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/install.log"
 data=$(cd / && "$scratch/prefix/bin/petrichor" doctor --json | grep -c "$scratch/prefix/share/petrichor")
 [ "$data" = 1 ] || { echo "the installed program does not find its data"; exit 1; }
 
+# The formulas for other engines are those that the program writes.
+"$scratch/prefix/bin/petrichor" headers -o "$scratch/headers" >/dev/null
+for file in petrichor.glsl petrichor.hlsl base/interop.h formulas/weather/fair_weather.h; do
+    written=$scratch/headers/petrichor/$file
+    [ -e "$written" ] || written=$scratch/headers/$file
+    cmp "$written" "$scratch/prefix/include/petrichor/$file" || { echo "$file is not installed as it is written"; exit 1; }
+done
+rm -r "$scratch/headers"
+
 # Every installed header compiles alone, and every shader text that one of them names is installed.
 # Where a header is the first that its own source includes, the build has shown it already.
 source=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build/CMakeCache.txt")

@@ -27,6 +27,7 @@ TEST(Program, HelpAndVersionSucceedOnStdout)
                                                {"bench", "--help"},
                                                {"bench", "weather", "--help"},
                                                {"doctor", "--help"},
+                                               {"headers", "--help"},
                                                {"init", "--help"}}) {
         const Outcome outcome = run(arguments, place);
         EXPECT_EQ(outcome.exit_code, 0) << arguments[0];

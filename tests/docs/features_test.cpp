@@ -147,7 +147,7 @@ std::string unknown_option(const std::string& span)
     return "";
 }
 
-const std::set<std::string> kCommands{"render", "simulate", "texture", "bench", "init", "doctor",
+const std::set<std::string> kCommands{"render", "simulate", "texture", "bench", "init", "doctor", "headers",
                                          "scene"};
 
 TEST(Features, NamesOnlyWhatExists)

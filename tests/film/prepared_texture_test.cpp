@@ -10,6 +10,7 @@
 #include <string>
 
 #include "film/scenes/scene_textures.h"
+#include "gpu/upload/emissive_lights.h"
 #include "tests/gpu/gpu_fixture.h"
 #include "texproc/codecs/files/texture.h"
 
@@ -204,6 +205,71 @@ TEST(PreparedTextures, AreNotPairedWithNormals)
     EXPECT_TRUE(recipes[0].prepared);
     EXPECT_EQ(recipes[0].normal_image, -1);
     EXPECT_FLOAT_EQ(scene.materials[0].roughness, 0.25f);
+}
+
+// Two panes, 5 m apart: one shows the dark left half of its texture, the other the bright right half.
+scene::Scene panes_with(scene::EncodedImage image)
+{
+    scene::Primitive two = gpu::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    const scene::Primitive other = gpu::quad({5, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    for (glm::vec2& uv : two.uv0) uv = {0.25f, 0.5f};
+    for (std::size_t i = 0; i < 4; ++i) {
+        two.positions.push_back(other.positions[i]);
+        two.uv0.emplace_back(0.75f, 0.5f);
+    }
+    for (const std::uint32_t k : other.indices) two.indices.push_back(4 + k);
+    scene::Material glow = gpu::plain_material(glm::vec3(0.0f));
+    glow.emissive = glm::vec3(100.0f);
+    glow.emissive_texture.texture = 0;
+    scene::Scene scene = gpu::scene_of({two}, {glow});
+    scene.textures.push_back(std::move(image));
+    return scene;
+}
+
+// Of 256 texels down to 1; the halves of the two largest levels lie the other way around: they are not read.
+std::vector<texproc::RawImage> half_bright_levels(texproc::PixelType type)
+{
+    std::vector<texproc::RawImage> levels;
+    for (int side = 256; side >= 1; side /= 2) {
+        Image level(side, side, 4, ColorSpace::Data, 1.0f);
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const bool bright = (2 * x >= side) == (side <= 64);
+                const float color[3] = {bright ? 0.8f : 0.0f, bright ? 0.5f : 0.0f, bright ? 0.2f : 0.0f};
+                for (int c = 0; c < 3; ++c) level.at(x, y, c) = color[c];
+            }
+        }
+        levels.push_back(texproc::to_raw(level, type));
+    }
+    return levels;
+}
+
+TEST(PreparedTextures, WhatGlowsInBlocksLightsAsInPlainTexels)
+{
+    struct Case {
+        const char* format;
+        TexelFormat wanted;
+        bool srgb;
+    };
+    for (const Case& c : {Case{"bc1a", TexelFormat::Bc1Srgb, true},
+                          Case{"bc3", TexelFormat::Bc3Srgb, true}, Case{"bc7", TexelFormat::Bc7Srgb, true},
+                          Case{"bc6h", TexelFormat::Bc6hUfloat, false}, Case{"rgba8", TexelFormat::Rgba8Srgb, true}}) {
+        const auto levels = half_bright_levels(c.srgb ? texproc::PixelType::U8 : texproc::PixelType::F16);
+        for (const char* extension : {".dds", ".ktx2"}) {
+            scene::Scene scene = panes_with(file_of(extension, levels, {.format = c.format, .srgb = c.srgb}));
+            const auto textures = prepare_textures(scene, {.blocks = BlockSupport::All});
+            ASSERT_EQ(textures[0].format, c.wanted) << c.format;
+            const auto lights = gpu::emissive_lights(scene, textures);
+            ASSERT_EQ(lights.size(), 1u) << c.format << extension;
+            EXPECT_NEAR(lights[0].position_m.x, 5.5f, 1e-4f) << c.format;
+            // Codes are of sRGB, halves of light.
+            const glm::vec3 codes(0.8f, 0.5f, 0.2f);
+            const glm::vec3 light = c.srgb ? glm::vec3(0.6038f, 0.2140f, 0.0331f) : codes;
+            for (int i = 0; i < 3; ++i) {
+                EXPECT_NEAR(lights[0].intensity * lights[0].color[i], 100.0f * light[i], 1.5f) << c.format << i;
+            }
+        }
+    }
 }
 
 // The levels of the file are those of the picture: a wall seen at 1, 2, 4, 8 texels a pixel is red,

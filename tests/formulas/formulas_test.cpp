@@ -571,6 +571,36 @@ TEST(ApplyWeather, AWetMetalKeepsItsReflectance)
 }
 
 // Snow swallows emission by its opacity, over what murky water has left of it.
+// Fresh snow 0.95, old 0.40 (Oke 1987): what melts lies between, the darker the thinner, and no jump as the thaw begins.
+TEST(ApplyWeather, MeltingSnowIsGreyAndWetWhereItIsThin)
+{
+    for (float cover = 0.0f; cover <= 1.0f; cover += 0.1f) EXPECT_EQ(melting_snow(cover, 0.0f), 1.0f);
+    for (float melt = 0.1f; melt <= 1.0f; melt += 0.1f) {
+        for (float cover = 0.1f; cover <= 1.0f; cover += 0.1f) {
+            EXPECT_LT(melting_snow(cover, melt), melting_snow(cover, melt - 0.1f));
+            EXPECT_LE(melting_snow(cover - 0.1f, melt), melting_snow(cover, melt));
+            EXPECT_GT(0.95f * melting_snow(cover, melt), 0.40f);
+            EXPECT_GE(melting_smoothness(0.3f, cover, melt), 0.3f);
+            EXPECT_GE(melting_smoothness(0.3f, cover - 0.1f, melt), melting_smoothness(0.3f, cover, melt));
+        }
+    }
+    EXPECT_LT(melting_snow(0.3f, 1.0f), 0.7f * melting_snow(1.0f, 1.0f));
+    WeatherMoment moment;
+    WeatherLook look;
+    look.snow_color = glm::vec3(0.9f);
+    DryMaterial dry{};
+    dry.base_color = glm::vec3(0.3f);
+    dry.f0 = glm::vec3(0.04f);
+    dry.roughness = 0.9f;
+    dry.occlusion = 1.0f;
+    SurfaceState state{};
+    state.snow = 1.0f;
+    state.snow_smoothness = 0.3f;
+    const float cold = apply_weather(dry, state, moment, look).albedo.x;
+    moment.melt_exp = 1.0f;
+    EXPECT_NEAR(apply_weather(dry, state, moment, look).albedo.x, 0.8f * cold, 1e-5f);
+}
+
 TEST(ApplyWeather, SnowAndMurkDimWhatGlows)
 {
     DryMaterial lamp = dry_stone();

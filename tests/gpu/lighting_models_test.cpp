@@ -176,6 +176,7 @@ TEST_F(LightingModelsTest, ABadModelIsRefusedByFileAndLine)
     EXPECT_NE(refusal((folder / "none.glsl").string()).find("none.glsl"), std::string::npos);
     EXPECT_NE(refusal(write("empty.glsl", "")).find("empty_light"), std::string::npos);
     EXPECT_NE(refusal(write("2d.glsl", "")).find("2d"), std::string::npos);
+    EXPECT_NE(refusal(write("half.glsl", "half_gather half_surround half_own")).find("half_compose"), std::string::npos);
     const std::string bad = write("bad.glsl",
                                   "#include \"gpu/lighting/models/lighting_model.glsl\"\n"
                                   "vec3 bad_light(LitPoint p, vec3 l) { return wrong; }\n"
@@ -198,6 +199,135 @@ TEST_F(LightingModelsTest, ATextThatUnfoldsWithoutEndIsStopped)
     }
     text += "float bomb_light_surround_own_bomb_surround_bomb_own = A39;\n";
     EXPECT_NE(refusal(write("bomb.glsl", text)), "");
+}
+
+// What a model that gathers makes of the sum is plain to see: its root.
+constexpr const char* kRoot = R"(
+#include "gpu/lighting/models/lighting_model.glsl"
+LightSum NAME_gather(LitPoint p, vec3 to_light)
+{
+    const float nl = clamp(dot(p.normal, to_light), 0.0, 1.0);
+    return LightSum(vec3(nl), vec3(nl > 0.0 ? 2.0 : 0.0));
+}
+vec3 NAME_compose(LitPoint p, LightSum sum) { return p.albedo * sqrt(sum.diffuse) + sqrt(sum.specular); }
+Reflected NAME_surround(LitPoint p, Surroundings s) { return Reflected(vec3(0.0), vec3(0.0)); }
+vec3 NAME_own(LitPoint p) { return vec3(0.0); }
+)";
+
+std::string named(std::string text, const std::string& name)
+{
+    for (std::size_t at = 0; (at = text.find("NAME", at)) != std::string::npos;) text.replace(at, 4, name);
+    return text;
+}
+
+Light from_above(float lux, float slant)
+{
+    Light light;
+    light.kind = LightKind::Directional;
+    light.intensity = lux;
+    light.direction = glm::normalize(glm::vec3(slant, -1.0f, 0.0f));
+    return light;
+}
+
+// The light of a sun (the stronger one) and of a lamp is gathered before the material is asked; by the other path
+// each is answered alone.
+TEST_F(LightingModelsTest, AModelThatGathersIsComposedOnce)
+{
+    Material material = plain_material(glm::vec3(0.25f), 0.9f);
+    material.lighting_model = write("root.glsl", named(kRoot, "root"));
+    Scene scene = plate(material, {0, -1, 0});
+    scene.lights = {from_above(300.0f, 0.5f), from_above(500.0f, -0.2f)};
+    renderer->load(scene, {});
+    Frame frame = lit_plate({0, 5, 0.01f});
+    const auto answer = [](float diffuse, float specular) {
+        return 0.25f * std::sqrt(diffuse) + std::sqrt(specular);
+    };
+    const float one = 300.0f / std::sqrt(1.25f), other = 500.0f / std::sqrt(1.04f);
+    const float lamps = pixel(renderer->render(frame), 8, 8).g;
+    EXPECT_NEAR(lamps, answer(one + other, 1600.0f), 0.01f * lamps);
+    frame.settings.light_prepass = false;
+    const float apart = pixel(renderer->render(frame), 8, 8).g;
+    const float expected = 300.0f * answer(one / 300.0f, 2.0f) + 500.0f * answer(other / 500.0f, 2.0f);
+    EXPECT_NEAR(apart, expected, 0.01f * expected) << "light by light";
+}
+
+// A model without that form answers light by light, beside one that has it and whatever the path.
+TEST_F(LightingModelsTest, AModelThatCannotGatherAnswersLightByLight)
+{
+    Material plain = plain_material(glm::vec3(0.5f), 0.3f), root = plain, standard = plain;
+    plain.lighting_model = kMinnaert;
+    root.lighting_model = write("root.glsl", named(kRoot, "root"));
+    Scene scene = scene_of({quad({-1.5f, 0, 1}, {1, 0, 0}, {0, 0, -2}, 0), quad({-0.5f, 0, 1}, {1, 0, 0}, {0, 0, -2}, 1),
+                            quad({0.5f, 0, 1}, {1, 0, 0}, {0, 0, -2}, 2)},
+                           {plain, root, standard});
+    scene.lights = {from_above(300.0f, 0.5f), from_above(500.0f, -0.2f)};
+    Light lamp;
+    lamp.position_m = {0.0f, 1.5f, 0.3f};
+    lamp.intensity = 200.0f;
+    scene.lights.push_back(lamp);
+    renderer->load(scene, {});
+    Frame frame = lit_plate({0, 4, 0.01f});
+    frame.camera = look({0, 4, 0.01f}, {0, 0, 0}, 0.6f);
+    frame.settings.width = 48;
+    frame.weather.film_albedo = frame.weather.film_smoothness = 0.8f;
+    const RenderResult gathered = renderer->render(frame);
+    frame.settings.light_prepass = false;
+    const RenderResult apart = renderer->render(frame);
+    int same = 0, other = 0;
+    for (int x = 2; x < 46; ++x) {
+        if (x > 17 && x < 30) {
+            other += pixel(gathered, x, 8) != pixel(apart, x, 8);
+        } else if (x < 14 || x > 33) {
+            EXPECT_EQ(pixel(gathered, x, 8), pixel(apart, x, 8)) << x;
+            ++same;
+        }
+    }
+    EXPECT_GT(same, 15);
+    EXPECT_GT(other, 4);
+}
+
+// Water over such a model keeps its own highlight, which is not composed; parts of light add up to the picture.
+TEST_F(LightingModelsTest, WhatLiesOverAModelThatGathersIsNoPartOfIt)
+{
+    Material black = plain_material(glm::vec3(0.0f), 0.5f);
+    std::string text = named(kRoot, "dark");
+    text.replace(text.find("p.albedo * sqrt(sum.diffuse) + sqrt(sum.specular)"), 49, "vec3(0.0) * sum.diffuse");
+    black.lighting_model = write("dark.glsl", text);
+    Scene scene = plate(black, {0, -1, 0});
+    Light lamp;
+    lamp.position_m = {0.0f, 3.0f, 0.0f};
+    lamp.intensity = 500.0f;
+    scene.lights = {lamp};
+    renderer->load(scene, {});
+    Frame frame = lit_plate({0, 5, 0.01f});
+    const float dry = pixel(renderer->render(frame), 8, 8).g;
+    EXPECT_NEAR(dry, 0.0f, 1.0e-4f);
+    frame.weather.film_albedo = frame.weather.film_smoothness = 0.8f;
+    frame.settings.aovs = {"diffuse_direct", "specular_direct"};
+    const RenderResult wet = renderer->render(frame);
+    frame.settings.light_prepass = false;
+    const RenderResult apart = renderer->render(frame);
+    const float seen = pixel(wet, 8, 8).g;
+    EXPECT_GT(seen, 0.1f) << "the water's";
+    EXPECT_NEAR(seen, pixel(apart, 8, 8).g, 0.002f * seen) << "which is added light by light";
+    EXPECT_NEAR(aov(wet, "diffuse_direct", 8, 8) + aov(wet, "specular_direct", 8, 8), seen, 0.002f * seen);
+}
+
+// The example of data/shaders: two lamps that are too dim for the first band each reach it together.
+TEST_F(LightingModelsTest, TheToonStepsUpWithTheSum)
+{
+    Material material = plain_material(glm::vec3(0.8f), 1.0f);
+    material.lighting_model = PETRICHOR_SOURCE_DIR "/data/shaders/toon.glsl";
+    Scene scene = plate(material, {0, -1, 0});
+    const float dim = 0.15f * 3.14159265f;
+    Frame frame = lit_plate({0, 5, 0.01f});
+    frame.settings.exposure = 1.0f;
+    for (int lamps = 1; lamps <= 4; ++lamps) {
+        scene.lights.assign(static_cast<std::size_t>(lamps), from_above(dim, 0.0f));
+        renderer->load(scene, {});
+        const float bands = std::floor(0.15f * static_cast<float>(lamps) * 4.0f);
+        EXPECT_NEAR(pixel(renderer->render(frame), 8, 8).g, 0.8f * bands / 4.0f, 0.005f) << lamps;
+    }
 }
 
 // A leaf between the eye and a lamp: black with an opaque leaf, lit with one that lets light through.

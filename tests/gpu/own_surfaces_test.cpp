@@ -258,5 +258,77 @@ TEST_F(OwnSurface, ShoreWaterHasFoamShallowsAndWaves)
     EXPECT_GT(strip(renderer->render(frame), 3).leaning, 1.5f * deep.leaning);
 }
 
+// What is blended has a surface of its own, too: so much of what glows behind comes through, in this colour.
+TEST_F(OwnSurface, OfWhatIsBlendedSaysWhatItLetsThrough)
+{
+    Material glow = plain_material(glm::vec3(1.0f));
+    glow.unlit = true;
+    Material sheet = plain_material(glm::vec3(0.0f));
+    sheet.alpha_mode = AlphaMode::Blend;
+    sheet.base_color.a = 0.9f;
+    const std::string text = R"(
+#include "gpu/passes/surface/own_surface.glsl"
+void sheet_input(inout SurfaceInput at) {}
+void sheet_surface(SurfaceInput at, inout SurfaceData data)
+{
+    data.opacity = at.position.x < 0.0 ? -1.0 : 0.25;
+    data.filtered = vec3(1.0, 0.5, 0.0);
+    data.texel.f0 = vec3(0.0);
+    data.texel.base_color = vec3(0.0);
+}
+)";
+    sheet.surface = write("sheet.glsl", text);
+    renderer->load(scene_of({quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 0), quad({-3, 1, 3}, {6, 0, 0}, {0, 0, -6}, 1)},
+                            {glow, sheet}),
+                   {});
+    Frame frame;
+    frame.camera = look({0, 5, 0}, {0, 0, 0});
+    frame.camera.orthographic_height_m = 2.0f;
+    frame.settings.width = frame.settings.height = 32;
+    frame.settings.samples = 1;
+    frame.settings.image_based_light = false;
+    frame.settings.exposure = 1.0f;
+    frame.sky.analytic_sun = false;
+    frame.weather.visibility_m = 1e9f;
+    const RenderResult r = renderer->render(frame);
+    const glm::vec3 by_alpha = pixel(r, 8, 16), by_itself = pixel(r, 24, 16);
+    EXPECT_NEAR(by_alpha.r, 0.1f, 0.002f);
+    EXPECT_NEAR(by_itself.r, 0.75f, 0.005f);
+    EXPECT_NEAR(by_itself.g, 0.375f, 0.005f);
+    EXPECT_NEAR(by_itself.b, 0.0f, 0.001f);
+}
+
+// Over sand: clear at the shore, blue where it is deeper, and foam hides it.
+TEST_F(OwnSurface, ShoreWaterOverTheGroundShowsIt)
+{
+    Material sand = plain_material(glm::vec3(0.6f));
+    Material sea = plain_material(glm::vec3(0.5f));
+    sea.surface = example("shore_water.glsl");
+    sea.alpha_mode = AlphaMode::Blend;
+    const glm::vec4 masks[] = {{0, 1, 0, 0}, {0, 1, 0, 0.2f}, {0, 1, 0, 1}, {1, 1, 0, 0}};
+    std::vector<Primitive> quads{quad({-8, -1, 8}, {16, 0, 0}, {0, 0, -16}, 0)};
+    for (int i = 0; i < 4; ++i) {
+        quads.push_back(quad({2.0f * static_cast<float>(i) - 4.0f, 0, 4}, {2, 0, 0}, {0, 0, -8}, 1));
+        quads.back().colors.assign(4, masks[i]);
+    }
+    renderer->load(scene_of(quads, {sand, sea}), {});
+    renderer->set_environment(constant_environment(1.0f));
+    Frame frame;
+    frame.camera = look({0, 5, 0}, {0, 0, 0});
+    frame.camera.orthographic_height_m = 8.0f;
+    frame.settings.width = frame.settings.height = 64;
+    frame.settings.samples = 1;
+    frame.settings.ambient_occlusion = false;
+    frame.sky.analytic_sun = false;
+    frame.weather.visibility_m = 1e9f;
+    const RenderResult r = renderer->render(frame);
+    const auto strip = [&](int i) { return pixel(r, 16 * i + 8, 32); };
+    EXPECT_NEAR(strip(0).r, 0.6f, 0.04f) << "the sand alone";
+    EXPECT_LT(strip(1).r, 0.6f * strip(0).r);
+    EXPECT_GT(strip(1).b, 1.3f * strip(1).r) << "red is gone first";
+    EXPECT_LT(strip(2).g, 0.25f * strip(1).g) << "deep";
+    EXPECT_GT(strip(3).r + strip(3).g, 0.5f) << "foam";
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

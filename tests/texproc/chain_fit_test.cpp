@@ -21,7 +21,8 @@ using namespace detail;
 
 constexpr std::size_t kLights = kFitLights;
 
-// Eight lights about an eye, the last but one a window, the last on metal.
+// Eight lights about an eye, the last but one a window, the last and the first on metal; a sky beside some
+// of them, and alone.
 FitLights lights(std::vector<FloorLight>& as_floor)
 {
     FitLights to{};
@@ -32,14 +33,21 @@ FitLights lights(std::vector<FloorLight>& as_floor)
         const glm::vec3 l = glm::normalize(
             glm::vec3(std::cos(turn), std::sin(turn), 0.3f + 0.1f * static_cast<float>(i)));
         const glm::vec3 h = glm::normalize(l + eye);
-        const bool window = i == 6, metal = i == 7;
+        const bool window = i == 6, metal = i == 7 || i == 0;
+        const float sun = i == 3 ? 0.0f : 1.0f, sky = i == 3 ? 1.0f : i % 2 == 0 ? 0.0f : 0.15f;
         to.lx[i] = l.x, to.ly[i] = l.y, to.lz[i] = l.z;
         to.hx[i] = h.x, to.hy[i] = h.y, to.hz[i] = h.z;
         const float f0 = metal ? kMetalF0 : kPaintF0, m = 1.0f - glm::dot(l, h);
-        to.fresnel[i] = f0 + (1.0f - f0) * m * m * m * m * m;
-        to.albedo[i] = metal ? 0.0f : (1.0f - to.fresnel[i]) * kPaintAlbedo / shared::kPi;
+        const float rim = m * m * m * m * m, fresnel = f0 + (1.0f - f0) * rim;
+        to.fresnel[i] = sun * (metal ? rim : fresnel);
+        to.fresnel_metal[i] = metal ? sun * f0 * (1.0f - rim) : 0.0f;
+        to.albedo[i] = metal ? 0.0f : sun * (1.0f - fresnel) * kPaintAlbedo / shared::kPi;
         to.alpha2[i] = window ? 0.01f : 0.0f;
-        as_floor.push_back({l, to.alpha2[i], 1.0f, 0.0f, metal});
+        to.sky[i] = sky;
+        to.f0[i] = metal ? 0.0f : f0;
+        to.f0_metal[i] = metal ? f0 : 0.0f;
+        to.sky_albedo[i] = metal ? 0.0f : kPaintAlbedo * (1.0f - f0);
+        as_floor.push_back({l, to.alpha2[i], sun, sky, metal});
     }
     return to;
 }
@@ -57,6 +65,29 @@ TEST(ChainFitKernel, ShadesAsTheFloorDoes)
             const float known = shade(n, p, 1.0f, eye, floor[i]);
             EXPECT_NEAR(light[i], known, 1e-4f * known + 1e-6f) << "light " << i << ", " << p;
         }
+    }
+}
+
+// The shares of the base colour, of paint and of metal.
+TEST(ChainFitKernel, SharesDarkenAsTheyDoOnTheFloor)
+{
+    std::vector<FloorLight> floor;
+    FitView view{};
+    view.lights = lights(floor);
+    view.taps = 1;
+    for (float& exposure : view.exposure) exposure = 1.0f;
+    const glm::vec3 eye(view.lights.eye[0], view.lights.eye[1], view.lights.eye[2]);
+    const Texel t{glm::normalize(glm::vec3(0.2f, -0.1f, 1.0f)), 0.5f, 0.7f, 0.6f};
+    const std::vector<FitTexel> level(4, {{t.n.x, t.n.y, t.n.z}, t.stored, t.diffuse, t.metal, {}});
+    const FitLevel map{2, 2, level.data(), nullptr};
+    const FitPixel pixel{0.3f, 0.6f, {}};
+    float light[kLights];
+    chain_fit_kernel().seen(view, {}, map, map, &pixel, 1, light);
+    for (std::size_t i = 0; i < kLights; ++i) {
+        const float known = shade(t, t.stored, eye, floor[i]);
+        EXPECT_NEAR(light[i], known, 1e-4f * known + 1e-6f) << i;
+        const float full = shade(t.n, t.stored, 1.0f, eye, floor[i]);
+        EXPECT_LT(known, full) << i;
     }
 }
 
@@ -84,7 +115,7 @@ struct Scene {
         for (std::vector<FitTexel>* level : {&fine, &coarse}) {
             for (FitTexel& t : *level) {
                 const glm::vec3 n = glm::normalize(glm::vec3(dice() - 0.5f, dice() - 0.5f, 1.0f));
-                t = {{n.x, n.y, n.z}, 0.4f + 0.4f * dice(), 0.9f, {}};
+                t = {{n.x, n.y, n.z}, 0.4f + 0.4f * dice(), 0.9f, 0.8f, {}};
             }
         }
         for (int i = 0; i < 20 * kFitFrames; ++i) {
@@ -145,34 +176,46 @@ struct Scene {
     }
 };
 
+// Of one light at a time: slopes of several cancel, and what is left says little.
 TEST(ChainFitKernel, SlopesAreThoseOfTheError)
 {
-    Scene s;
-    s.expose();
-    chain_fit_kernel().add_slopes(s.view, {}, s.level(true), s.level(false), s.pixels.data(),
-                                  static_cast<int>(s.pixels.size()));
-    double largest = 0.0;
-    for (const bool of_fine : {true, false}) {
-        std::vector<FitTexel>& texels = of_fine ? s.fine : s.coarse;
-        const std::vector<FitSlope>& slopes = of_fine ? s.fine_slopes : s.coarse_slopes;
-        for (const std::size_t i : {std::size_t{0}, texels.size() / 2, texels.size() - 3}) {
-            for (int c = 0; c < 4; ++c) {
-                float& value = c < 3 ? texels[i].n[c] : texels[i].stored;
-                const float was = value, step = 0.02f;
-                value = was + step;
-                const double above = s.cost();
-                value = was - step;
-                const double below = s.cost();
-                value = was;
-                const double known = (above - below) / (2.0 * static_cast<double>(step));
-                const double found = static_cast<double>(c < 3 ? slopes[i].n[c] : slopes[i].stored);
-                EXPECT_NEAR(found, known, 0.05 * std::abs(known) + 2e-4)
-                    << of_fine << " " << i << " " << c;
-                largest = std::max(largest, std::abs(known));
+    double largest = 0.0, largest_of_metal = 0.0;
+    for (std::size_t light = 0; light < kLights; ++light) {
+        Scene s;
+        s.expose();
+        for (std::size_t l = 0; l < kLights; ++l)
+            if (l != light) s.view.weight[l] = s.view.flicker[l] = 0.0f;
+        chain_fit_kernel().add_slopes(s.view, {}, s.level(true), s.level(false), s.pixels.data(),
+                                      static_cast<int>(s.pixels.size()));
+        for (const bool of_fine : {true, false}) {
+            std::vector<FitTexel>& texels = of_fine ? s.fine : s.coarse;
+            const std::vector<FitSlope>& slopes = of_fine ? s.fine_slopes : s.coarse_slopes;
+            for (const std::size_t i : {std::size_t{0}, texels.size() / 2, texels.size() - 3}) {
+                FitTexel& t = texels[i];
+                const FitSlope& slope = slopes[i];
+                float* const values[5] = {&t.n[0], &t.n[1], &t.n[2], &t.stored, &t.metal};
+                const float found[5] = {slope.n[0], slope.n[1], slope.n[2], slope.stored,
+                                        slope.metal};
+                for (int c = 0; c < 5; ++c) {
+                    float& value = *values[c];
+                    const float was = value, step = 0.02f;
+                    value = was + step;
+                    const double above = s.cost();
+                    value = was - step;
+                    const double below = s.cost();
+                    value = was;
+                    const double known = (above - below) / (2.0 * static_cast<double>(step));
+                    EXPECT_NEAR(static_cast<double>(found[c]), known,
+                                0.05 * std::abs(known) + 1e-4)
+                        << light << " " << of_fine << " " << i << " " << c;
+                    largest = std::max(largest, std::abs(known));
+                    if (c == 4) largest_of_metal = std::max(largest_of_metal, std::abs(known));
+                }
             }
         }
     }
     EXPECT_GT(largest, 0.01);
+    EXPECT_GT(largest_of_metal, 0.001);
 }
 
 TEST(ChainFitKernel, BothInstructionSetsGiveTheSameBits)
@@ -217,7 +260,7 @@ class ChainFit : public testing::TestWithParam<bool> {};
 TEST_P(ChainFit, PicturesThatItHasNotSeenAreNearerAndHoldStiller)
 {
     ScoredMaps maps = cloth(96);
-    PrefilterOptions options{.rule = "picture", .quick = true};
+    PrefilterOptions options{.rule = "picture", .quick = true, .surface = SurfaceClass::Paint};
     if (GetParam()) {
         options.smoothness = options.green_down = true;
         Image n = to_image(maps.normal, ColorSpace::Data),
@@ -226,7 +269,9 @@ TEST_P(ChainFit, PicturesThatItHasNotSeenAreNearerAndHoldStiller)
         for (float& p : r.pixels) p = 1.0f - p;
         maps.normal = to_raw(n, PixelType::U16), maps.roughness = to_raw(r, PixelType::U16);
     }
-    const PictureBench bench(maps.normal, maps.roughness, options, few_pixels());
+    PictureOptions paint = few_pixels();
+    paint.cases.pop_back();  // metal
+    const PictureBench bench(maps.normal, maps.roughness, options, paint);
     const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
     Prefiltered fitted = start;
     fit_chain(bench.levels(), options, fitted);
@@ -282,6 +327,43 @@ TEST(ChainFitRule, FullQualityHoldsStillerThanQuick)
         return sum;
     };
     EXPECT_LT(flicker(false), 0.97 * flicker(true));
+}
+
+// What one lobe cannot do, wide ahead and narrow behind, the colour of metal helps with: no picture of
+// metal gets worse, with the sun behind and a sky as little as ahead.
+TEST(ChainFitRule, MetalIsNotWorseWithTheSunBehind)
+{
+    const ScoredMaps maps = cloth(96);
+    PictureOptions o = few_pixels();
+    for (PictureLight& light : o.lights) light.sky = light.alpha > 0.0f ? 0.0f : 0.1f;
+    o.cases = {{0, 0, true}, {0, 1, true}, {0, 2, true}};
+    const PictureBench bench(maps.normal, maps.roughness, {}, o);
+    const auto plain = bench.score({});
+    const auto worst = [&](bool quick) {
+        PrefilterOptions options{.rule = "picture", .quick = quick, .surface = SurfaceClass::Metal};
+        const Prefiltered chain = prefilter_raw(maps.normal, maps.roughness, options);
+        EXPECT_EQ(chain.metal_share.empty(), quick);
+        const auto scores = bench.score(chain);
+        double most = -1.0;
+        for (std::size_t i = 0; i < scores.size(); ++i)
+            most = std::max(most, scores[i].rmse / plain[i].rmse - 1.0);
+        return most;
+    };
+    EXPECT_LT(worst(false), 0.02);
+    EXPECT_GT(worst(true), 0.02) << "or this shows nothing";
+}
+
+// Maps of paint have no share of metal; of both they do.
+TEST(ChainFitRule, OnlyMetalHasAShareOfItsColour)
+{
+    const ScoredMaps maps = cloth(48);
+    for (const SurfaceClass surface : {SurfaceClass::Paint, SurfaceClass::Both}) {
+        const Prefiltered chain = prefilter_raw(maps.normal, maps.roughness,
+                                                {.rule = "picture", .surface = surface});
+        EXPECT_EQ(chain.metal_share.empty(), surface == SurfaceClass::Paint);
+        for (const Image& level : chain.metal_share)
+            for (const float share : level.pixels) EXPECT_TRUE(share >= 0.0f && share <= 1.0f);
+    }
 }
 
 // Where normals are not written with it.

@@ -235,6 +235,12 @@ TEST(BaseShare, IsTheLengthOfTheMeanNormal)
     EXPECT_FLOAT_EQ(painted[2].pixels[3], 0.8f) << "alpha is no colour";
     apply_base_shares(color, shares, metal);
     EXPECT_FLOAT_EQ(color[2].pixels[0], 0.8f) << "the colour of metal is that of its highlight";
+    std::vector<Image> of_metal = shares;
+    for (Image& level : of_metal) std::fill(level.pixels.begin(), level.pixels.end(), 0.5f);
+    metal[2].pixels[0] = 0.25f;
+    apply_base_shares(color, shares, metal, of_metal);
+    EXPECT_FLOAT_EQ(color[1].pixels[0], 0.4f) << "but for a share of its own";
+    EXPECT_NEAR(color[2].pixels[0], 0.8f * (0.75f * lean + 0.25f * 0.5f), 1e-6f);
 }
 
 // Columns of a level that lean left and right in turn, by 45 degrees.

@@ -81,19 +81,23 @@ std::vector<Image> pixel_base_shares(const Image& normals, int threads)
 }
 
 void apply_base_shares(std::vector<Image>& color, const std::vector<Image>& shares,
-                       const std::vector<Image>& metallic)
+                       const std::vector<Image>& metallic,
+                       const std::vector<Image>& of_metal)
 {
     for (std::size_t k = 1; k < color.size(); ++k) {
         Image& level = color[k];
         if (level.empty()) continue;
         const Image share = shares_for(shares, level.width, level.height);
         if (share.empty()) continue;
+        const Image mirrored = shares_for(of_metal, level.width, level.height);
         const bool metal = k < metallic.size() && metallic[k].pixels.size() == share.pixels.size();
         const std::size_t step = static_cast<std::size_t>(level.channels);
         for (std::size_t i = 0; i < share.pixels.size(); ++i) {
             const float diffuse =
                 metal ? 1.0f - std::clamp(metallic[k].pixels[i], 0.0f, 1.0f) : 1.0f;
-            const float factor = 1.0f - diffuse * (1.0f - share.pixels[i]);
+            const float of_rest = mirrored.empty() ? 1.0f : mirrored.pixels[i];
+            const float factor =
+                1.0f - diffuse * (1.0f - share.pixels[i]) - (1.0f - diffuse) * (1.0f - of_rest);
             for (std::size_t c = 0; c < std::min<std::size_t>(step, 3); ++c)
                 level.pixels[step * i + c] *= factor;
         }

@@ -19,13 +19,15 @@ std::vector<Image> base_shares(const Image& normals, int threads = 0);
 /// picture darkens by.
 std::vector<Image> pixel_base_shares(const Image& normals, int threads = 0);
 
-/// Multiplies red, green and blue of the levels of a base colour by the shares. Metal keeps its
-/// colour, which is that of its highlight.
+/// Multiplies red, green and blue of the levels of a base colour by the shares. Metal, whose colour is
+/// that of its highlight, has shares of its own, and keeps its colour without them.
 ///   color     3 or 4 channels, level 0 first, which stays
 ///   shares    level 0 may be empty; sizes need not be those of the colour
 ///   metallic  1 channel a level, sizes of the colour; empty: no metal
+///   of_metal  as shares; empty: all 1
 void apply_base_shares(std::vector<Image>& color, const std::vector<Image>& shares,
-                       const std::vector<Image>& metallic);
+                       const std::vector<Image>& metallic,
+                       const std::vector<Image>& of_metal = {});
 
 }  // namespace petrichor::texproc
 

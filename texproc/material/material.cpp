@@ -190,7 +190,7 @@ void Maker::darken_small_levels(std::vector<Image>& albedo) const
     if (const RawImage* map = maps_.find("metallic")) {
         if (map->channels == 1) metallic = levels_without_prefilter("metallic", ColorSpace::Data);
     }
-    apply_base_shares(albedo, prefiltered_.base_share(), metallic);
+    apply_base_shares(albedo, prefiltered_.base_share(), metallic, prefiltered_.metal_share());
 }
 
 std::vector<Image> Maker::levels_without_prefilter(const std::string& role, ColorSpace space) const

@@ -37,6 +37,26 @@ PrefilteredMaps::PrefilteredMaps(const PlannedMaterial& plan, const SourceMaps& 
                      : prefilter_raw(normal, rough, options_);
 }
 
+namespace {
+
+// Without a map of it nothing is metal.
+SurfaceClass class_of(const SourceMaps& maps)
+{
+    const RawImage* map = maps.find("metallic");
+    if (!map) return SurfaceClass::Paint;
+    if (map->channels != 1) return SurfaceClass::Both;
+    const Image metallic = to_image(*map, ColorSpace::Data);
+    double sum = 0.0;
+    for (const float m : metallic.pixels) sum += static_cast<double>(std::clamp(m, 0.0f, 1.0f));
+    const double mean = sum / static_cast<double>(metallic.pixels.size());
+    constexpr double kFew = 0.02;
+    return mean < kFew         ? SurfaceClass::Paint
+           : mean > 1.0 - kFew ? SurfaceClass::Metal
+                               : SurfaceClass::Both;
+}
+
+}  // namespace
+
 void PrefilteredMaps::choose_options(int threads)
 {
     bool joint = false, all_eight = true;
@@ -53,6 +73,7 @@ void PrefilteredMaps::choose_options(int threads)
                                                     .bits = all_eight ? 8 : 16,
                                                     .smoothness = rough_role_ == "smoothness",
                                                     .threads = threads});
+    if (options_.rule == "picture" && !options_.quick) options_.surface = class_of(maps_);
     bits_ = std::min(bits, 16);
 }
 
@@ -128,7 +149,7 @@ void PrefilteredMaps::aim(std::size_t number, const std::vector<MadeOutput>& mad
         if (read[k].empty()) read[k] = chains_.normal[k];
     }
     aimed_[*normals] = aim_roughness(maps_.images.at("normal"), maps_.images.at(rough_role_),
-                                     {std::move(read), chains_.roughness, {}, {}}, options_);
+                                     {std::move(read), chains_.roughness, {}, {}, {}}, options_);
 }
 
 const std::vector<Image>* PrefilteredMaps::levels(std::size_t number, const std::string& role) const
@@ -178,6 +199,7 @@ std::optional<Prefiltered> PrefilteredMaps::shipped(const std::vector<MadeOutput
     }
     if (!options_.joint) read.normal.clear();
     read.base_share = chains_.base_share;
+    read.metal_share = chains_.metal_share;
     return read;
 }
 
@@ -207,7 +229,7 @@ const PictureBench& PrefilteredMaps::bench() const
 {
     if (!bench_) {
         bench_.emplace(maps_.images.at("normal"), maps_.images.at(rough_role_), options_,
-                       build_pictures(options_.threads));
+                       build_pictures(options_.threads, options_.surface));
     }
     return *bench_;
 }
@@ -229,6 +251,7 @@ Prefiltered PrefilteredMaps::as_read(std::size_t number, const std::vector<MadeO
     if (normals && !made[*normals].files.empty())
         read.normal = read_back(*normals, "normal", made, folder);
     read.base_share = chains_.base_share;
+    read.metal_share = chains_.metal_share;
     return read;
 }
 
@@ -249,7 +272,10 @@ void PrefilteredMaps::guard(std::size_t number, std::vector<MadeOutput>& made,
     made[number] = write();
     const StoredGuard chosen = guard_stored(bench(), ours, as_read(number, made, folder).roughness);
     plain_scores_[number] = chosen.plain_score;
-    if (!chosen.darken) chains_.base_share.clear();
+    if (!chosen.darken) {
+        chains_.base_share.clear();
+        chains_.metal_share.clear();
+    }
     std::vector<Image>& levels = guarded_[number];
     for (std::size_t k = 1; k < levels.size(); ++k)
         if (k >= chosen.plain.size() || !chosen.plain[k]) levels[k] = chains_.roughness[k];

@@ -40,6 +40,7 @@ public:
     const std::vector<Image>* levels(std::size_t number, const std::string& role) const;
     /// What the base colour is to be multiplied by (apply_base_shares); empty: by nothing.
     const std::vector<Image>& base_share() const { return chains_.base_share; }
+    const std::vector<Image>& metal_share() const { return chains_.metal_share; }
     /// For TextureWriteOptions::texel_weights of an output whose first level is `first`: a
     /// prefiltered map alone in BC4 or BC5; empty for others.
     std::vector<Image> texel_weights(std::size_t number, std::size_t first) const;

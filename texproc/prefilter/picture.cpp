@@ -109,7 +109,7 @@ void PictureBench::State::render_truth()
                         const float p = perceptual(t.stored, input);
                         for (std::size_t i = 0; i < cases.size(); ++i)
                             sum[i] += static_cast<double>(
-                                shade(t.n, p, t.diffuse, at.to_eye, lights[cases[i]]));
+                                shade(t, p, at.to_eye, lights[cases[i]]));
                     }
                     const std::size_t pixel =
                         job * static_cast<std::size_t>(view.width) + static_cast<std::size_t>(x);
@@ -150,6 +150,11 @@ std::vector<Level> PictureBench::State::levels_of(const Prefiltered& chain) cons
             for (std::size_t i = 0; i < own[k].texels.size(); ++i)
                 own[k].texels[i].diffuse = chain.base_share[k].pixels[i];
         }
+        if (k < chain.metal_share.size() && !chain.metal_share[k].empty()) {
+            check_level(chain.metal_share[k], plain[k], k);
+            for (std::size_t i = 0; i < own[k].texels.size(); ++i)
+                own[k].texels[i].metal = chain.metal_share[k].pixels[i];
+        }
         if (rough) {
             check_level(chain.roughness[k], plain[k], k);
             for (std::size_t i = 0; i < own[k].texels.size(); ++i)
@@ -178,7 +183,7 @@ void PictureBench::State::shade_row(const std::vector<const Level*>& levels, con
         const float p = perceptual(t.stored, input);
         for (std::size_t i = 0; i < cases.size(); ++i)
             to[i][static_cast<std::size_t>(x)] =
-                shade(t.n, p, t.diffuse, pixel.to_eye, lights[cases[i]]);
+                shade(t, p, pixel.to_eye, lights[cases[i]]);
     }
 }
 
@@ -426,7 +431,8 @@ std::vector<PictureScore> PictureBench::Blend::score(const Shares& shares)
                                        shares.base[t.coarse] * t.darken_coarse;
                     const float p = perceptual(std::clamp(stored, 0.0f, 1.0f), s.input);
                     for (std::size_t i = 0; i < view.cases.size(); ++i)
-                        line[i][x] = shade(t.n, p, base, t.to_eye, s.lights[view.cases[i]]);
+                        line[i][x] =
+                            shade({t.n, stored, base, 1.0f}, p, t.to_eye, s.lights[view.cases[i]]);
                 }
             };
             s.sum_row(v, static_cast<int>(y), view.cases, shade_all, view.rows[y]);

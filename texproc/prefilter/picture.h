@@ -63,8 +63,9 @@ PictureOptions reference_pictures();
 /// floor from above, and plain trilinear filtering.
 PictureOptions all_pictures();
 /// Small ones with other lights, views and places: what the rule picture checks itself on. A ring of
-/// suns, low and high, and a window; quick: four suns, and one view less.
-PictureOptions design_pictures(bool quick = false);
+/// suns, low and high, some with a sky, a window and a sky alone, on paint and on metal, and one view
+/// of one tap; quick: four suns on paint and a window, two views less, of any class.
+PictureOptions design_pictures(bool quick = false, SurfaceClass surface = SurfaceClass::Both);
 
 /// One case of one material: display-referred, 0..1.
 struct PictureScore {
@@ -113,7 +114,7 @@ private:
 /// pixel is filtered once, and only shaded for every mixture that is tried.
 class PictureBench::Blend {
 public:
-    /// chain: its roughness and base_share, all levels from 1 on. `bench` must outlive this.
+    /// chain: its roughness and base_share, all levels from 1 on; metal keeps its colour. `bench` must outlive this.
     Blend(const PictureBench& bench, const Prefiltered& chain);
     ~Blend();
 

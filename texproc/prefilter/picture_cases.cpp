@@ -1,4 +1,5 @@
 // Which pictures are taken: views, lights, and what is tried under them.
+#include <iterator>
 #include <string>
 
 #include "texproc/prefilter/picture.h"
@@ -17,7 +18,7 @@ PictureOptions reference_pictures()
     return o;
 }
 
-PictureOptions design_pictures(bool quick)
+PictureOptions design_pictures(bool quick, SurfaceClass surface)
 {
     PictureOptions o;
     o.frames = 2;
@@ -52,6 +53,7 @@ PictureOptions design_pictures(bool quick)
                     {.name = "from the right", .to_light = {1.0f, 0.1f, 0.6f}},
                     {.name = "behind", .to_light = {-0.5f, -0.9f, 0.9f}}};
     } else {
+        o.views.back().pitch_deg = 52.0;  // what is fitted is seen from 9 to 60 degrees
         // As fine as a large picture, but less of it.
         o.views.push_back({.name = "part",
                            .height_m = 1.7,
@@ -61,19 +63,51 @@ PictureOptions design_pictures(bool quick)
                            .rows = 64,
                            .step_right_m = 0.005,
                            .step_ahead_m = 0.019});
+        // Plain trilinear filtering, of which little is enough.
+        PictureView one_tap = o.views.front();
+        one_tap.name += ", one tap";
+        one_tap.rows = 40;
+        one_tap.taps = 1;
+        o.views.push_back(one_tap);
         // A ring of suns, low and high in turn, another ahead.
         constexpr float kRing[][3] = {
             {0.26f, 0.97f, 0.45f},  {0.83f, 0.56f, 1.1f},    {0.97f, -0.26f, 0.45f},
             {0.56f, -0.83f, 1.1f},  {-0.26f, 0.97f, 1.1f},   {-0.83f, 0.56f, 0.45f},
             {-0.97f, -0.26f, 1.1f}, {-0.56f, -0.83f, 0.45f}, {-0.1f, 1.0f, 0.3f}};
-        for (const auto& sun : kRing)
-            o.lights.push_back({.name = "sun " + std::to_string(o.lights.size()),
-                                .to_light = {sun[0], sun[1], sun[2]}});
+        // Beside half of them there is a sky on paint; on metal, which would be black without, beside
+        // all but two ahead.
+        constexpr float kSky[] = {0.0f, 0.07f, 0.0f, 0.16f, 0.0f, 0.12f, 0.0f, 0.09f, 0.08f};
+        constexpr float kMetalSky[] = {0.08f, 0.07f, 0.11f, 0.16f, 0.0f, 0.12f, 0.13f, 0.09f, 0.0f};
+        for (const auto& sky_of : {kSky, kMetalSky})
+            for (std::size_t i = 0; i < std::size(kRing); ++i)
+                o.lights.push_back({.name = "sun " + std::to_string(i),
+                                    .to_light = {kRing[i][0], kRing[i][1], kRing[i][2]},
+                                    .sky = sky_of[i]});
+        o.lights.push_back({.name = "sky", .sun = 0.0f, .sky = 1.0f});
     }
     o.lights.push_back({.name = "window", .to_light = {-0.1f, 1.0f, 0.5f}, .alpha = 0.12f});
-    for (int view = 0; view < static_cast<int>(o.views.size()); ++view)
-        for (int light = 0; light < static_cast<int>(o.lights.size()); ++light)
-            o.cases.push_back({view, light, false});
+    const int lights = static_cast<int>(o.lights.size()), views = static_cast<int>(o.views.size());
+    if (quick) {
+        for (int view = 0; view < views; ++view)
+            for (int light = 0; light < lights; ++light) o.cases.push_back({view, light, false});
+        return o;
+    }
+    constexpr int kDown = 2, kOneTap = 4, kSuns = 9, kSkyAlone = 2 * kSuns, kWindow = kSkyAlone + 1;
+    for (int view = 0; view < views; ++view) {
+        const auto add = [&](int light, bool some, bool metal) {
+            if (view != kOneTap || some) o.cases.push_back({view, light, metal});
+        };
+        if (surface != SurfaceClass::Metal) {
+            for (int sun = 0; sun < kSuns; ++sun) add(sun, sun % 2 == 1 || sun == 0, false);
+            add(kWindow, true, false);
+            // From above the sky lights all slopes of paint alike: an error that nobody sees.
+            if (view != kDown) add(kSkyAlone, false, false);
+        }
+        if (surface != SurfaceClass::Paint) {
+            for (int sun = 0; sun < kSuns; ++sun) add(kSuns + sun, sun % 3 == 2, true);
+            add(kSkyAlone, false, true);
+        }
+    }
     return o;
 }
 

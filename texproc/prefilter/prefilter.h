@@ -10,6 +10,9 @@
 
 namespace petrichor::texproc {
 
+/// What the maps are the surface of: light falls off a highlight otherwise where nothing is diffuse.
+enum class SurfaceClass { Both, Paint, Metal };
+
 struct PrefilterOptions {
     std::string rule = "moments";  ///< a name of rules()
     bool smoothness = false;  ///< the second map holds smoothness instead of perceptual roughness
@@ -26,6 +29,7 @@ struct PrefilterOptions {
     bool joint = true;
     bool anisotropic = false;   ///< overlap: elliptic lobes where they help
     bool quick = false;         ///< overlap, picture: less search
+    SurfaceClass surface = SurfaceClass::Both;  ///< picture in full: what it is fitted to
     int bits = 0;               ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats
 
     std::function<void(double)> progress{};  ///< called now and then with the share done, 0..1
@@ -43,6 +47,9 @@ struct Prefiltered {
     /// multiplied by on each level. It is the length of the mean normal, which a normal of unit
     /// length forgets: slopes that face away make a surface darker from afar.
     std::vector<Image> base_share;
+    /// Only with the rule picture in full, 1 channel, 0..1: the same of metal, whose base colour is
+    /// what it mirrors. Slopes that mirror the ground or shine elsewhere make it darker from afar.
+    std::vector<Image> metal_share;
 };
 
 // A texel is made from its exact area of level 0 and never looks past an edge: maps that wrap,

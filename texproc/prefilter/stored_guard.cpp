@@ -23,12 +23,16 @@ double excess(const PictureScore& score, const PictureScore& plain)
 
 }  // namespace
 
-PictureOptions build_pictures(int threads)
+PictureOptions build_pictures(int threads, SurfaceClass surface)
 {
     PictureOptions pictures = reference_pictures();
     pictures.frames = 2;
     pictures.samples = 8;
     pictures.threads = threads;
+    if (surface != SurfaceClass::Both) {
+        std::erase_if(pictures.cases, [](const PictureCase& c) { return c.metal; });
+        for (PictureCase& c : pictures.cases) c.metal = surface == SurfaceClass::Metal;
+    }
     return pictures;
 }
 
@@ -47,7 +51,7 @@ StoredGuard guard_stored(const PictureBench& bench, const Prefiltered& ours,
 {
     StoredGuard guard;
     const auto score = [&](const Prefiltered& chain) { return mean_score(bench.score(chain)); };
-    guard.plain_score = score({ours.normal, plain, {}, {}});
+    guard.plain_score = score({ours.normal, plain, {}, {}, {}});
     Prefiltered chain = ours;
     guard.score = score(chain);
     if (!is_worse(guard.score, guard.plain_score)) return guard;
@@ -71,6 +75,7 @@ StoredGuard guard_stored(const PictureBench& bench, const Prefiltered& ours,
     // All are plain, and still worse: it is the base colour. Without it the levels may stay.
     guard.darken = false;
     chain.base_share.clear();
+    chain.metal_share.clear();
     chain.roughness = ours.roughness;
     guard.score = score(chain);
     if (!is_worse(guard.score, guard.plain_score)) {

@@ -10,8 +10,9 @@ namespace petrichor::texproc {
 // The rule picture is chosen on floats. Blocks and codes add an error of their own, which on nearly
 // flat maps is larger than what the filter gains: so what is stored is looked at once more.
 
-/// Small pictures of the reference cases: what builds report and guard with.
-PictureOptions build_pictures(int threads);
+/// Small pictures of the reference cases: what builds report and guard with. Of paint, its four; of
+/// metal, the same lights on metal.
+PictureOptions build_pictures(int threads, SurfaceClass surface = SurfaceClass::Both);
 
 /// Mean of the cases.
 PictureScore mean_score(const std::vector<PictureScore>& scores);

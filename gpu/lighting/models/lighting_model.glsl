@@ -9,6 +9,14 @@
 //   vec3 NAME_own(LitPoint p)
 //       radiance, cd/m2, that needs no light
 //
+// Beside NAME_light, or in its place, a user's own may gather the light of sun and lamps first and be
+// composed with the material once, as in a pre-pass of lighting ([render] lighting_path):
+//
+//   LightSum NAME_gather(LitPoint p, vec3 to_light)
+//       what is gathered of one lux of a light that the surface would face; sums over lights follow
+//   vec3 NAME_compose(LitPoint p, LightSum sum)
+//       radiance towards the eye of all that was gathered
+//
 // Only the models of what is in the picture are compiled into its shader.
 #ifndef PETRICHOR_GPU_LIGHTING_LIGHTING_MODEL_GLSL
 #define PETRICHOR_GPU_LIGHTING_LIGHTING_MODEL_GLSL
@@ -30,6 +38,18 @@ struct ShapedLobes {
     float film_mirrors;
 };
 
+// Light of sun and lamps, gathered before the material is asked. What the two mean is the model's.
+struct LightSum {
+    vec3 diffuse;
+    vec3 specular;
+};
+
+// What is asked of a model for one light (LitPoint.gathers).
+const uint GATHERS_NOTHING_FIRST = 0u;  // its answer
+const uint GATHERS_DIFFUSE = 1u;
+const uint GATHERS_SPECULAR = 2u;
+const uint GATHERS_REST = 3u;  // what lies over the model alone
+
 // A surface point; weather is on it already.
 struct LitPoint {
     vec3 position;     // world, metres
@@ -43,6 +63,7 @@ struct LitPoint {
     vec3 emission;     // radiance, cd/m2
     float exposure;    // radiance times this is 1 where the display is white
     uint model;        // its number
+    uint gathers;      // one of GATHERS_...; the pass's own
     Lobe lobe;         // of GGX, made ready for shade_lobe()
     Layers layers;     // coat, sheen and so on of the material; zero where it has none
     Translucency translucency;  // of the material; the pass adds it

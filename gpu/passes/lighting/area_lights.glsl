@@ -227,7 +227,10 @@ vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3
     bright.layers.sheen = vec3(0.0);
     bright.roughness = sqrt(alpha);
     bright.lobe = make_lobe(p.normal, p.view, vec3(0.0), p.specular, alpha);
-    return (shadowed_light(matt_part(p), nearest_on_axis(centre, half_axis), visible) +
+    LitPoint matt = matt_part(p);
+    if (GATHERS != 0u && p.gathers == GATHERS_DIFFUSE) bright.gathers = GATHERS_REST;
+    if (GATHERS != 0u && p.gathers == GATHERS_SPECULAR) matt.gathers = GATHERS_REST;
+    return (shadowed_light(matt, nearest_on_axis(centre, half_axis), visible) +
             model_light(bright, at.direction) * (at.energy * size.z * visible)) *
            strength;
 }

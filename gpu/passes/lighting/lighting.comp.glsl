@@ -62,6 +62,7 @@ layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
 layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
 layout(constant_id = LIGHTING_SPEC_PROBES) const uint PROBES = 0u;
 layout(constant_id = LIGHTING_SPEC_PICTURE) const uint PICTURE = 1u;
+layout(constant_id = LIGHTING_SPEC_GATHERS) const uint GATHERS = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -136,8 +137,44 @@ LIGHTING_MODELS(ROW)
 #undef ROW
 ) == 1u;
 
+bool model_gathers(uint model)
+{
+    bool gathers = false;
+#define ROW(number_, name_) gathers = gathers || model == uint(number_);
+    GATHERING_LIGHTING_MODELS(ROW)
+#undef ROW
+    return gathers;
+}
+
+vec3 model_compose(LitPoint p, LightSum sum)
+{
+    vec3 radiance = vec3(0.0);
+#define ROW(number_, name_)                                                \
+    if (USES_##name_ != 0u && p.model == uint(number_)) {                  \
+        radiance = name_##_compose(p, sum);                                \
+    }
+    GATHERING_LIGHTING_MODELS(ROW)
+#undef ROW
+    return radiance;
+}
+
+// One part of what a light adds to the sum.
+vec3 model_gather(LitPoint p, vec3 to_light)
+{
+    LightSum one = LightSum(vec3(0.0), vec3(0.0));
+    if (p.gathers == GATHERS_REST) return vec3(0.0);
+#define ROW(number_, name_)                                                \
+    if (USES_##name_ != 0u && p.model == uint(number_)) {                  \
+        one = name_##_gather(p, to_light);                                 \
+    }
+    GATHERING_LIGHTING_MODELS(ROW)
+#undef ROW
+    return p.gathers == GATHERS_DIFFUSE ? one.diffuse : one.specular;
+}
+
 vec3 model_light(LitPoint p, vec3 to_light)
 {
+    if (GATHERS != 0u && p.gathers != GATHERS_NOTHING_FIRST) return model_gather(p, to_light);
     vec3 radiance = vec3(0.0);
 #define ROW(number_, name_)                                                \
     if (USES_##name_ != 0u && (ONE_MODEL || p.model == uint(number_))) {   \
@@ -201,6 +238,7 @@ struct Ambient {
     float open;       // 0..1: how far a mirror sees the sky
 };
 
+#include "gpu/passes/lighting/gathered_light.glsl"
 #include "gpu/passes/lighting/rough_mirror.glsl"
 
 // What near things leave of the light, by the picture.
@@ -373,6 +411,7 @@ void main()
         p.emission = g.emission * m.emission_scale;
         p.exposure = sky_light.exposure;
         p.model = g.model;
+        p.gathers = GATHERS_NOTHING_FIRST;
         p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0, n);
         p.translucency = Translucency(0.0, 1.0, 0.0, 0.0, 0.0, vec3(0.0));
         p.curvature = 0.0;
@@ -437,7 +476,10 @@ void main()
         if ((SUN != 0u && SHADOWS != 0u) || LAMP_SHADOWS != 0u)
             p.mesh_normal = geometry_normal(texel, position, depth, g.base_normal);
 
+        if (GATHERS != 0u && model_gathers(p.model)) p.gathers = GATHERS_DIFFUSE;
+        const bool composes = GATHERS != 0u && p.gathers != GATHERS_NOTHING_FIRST;
         vec3 direct = vec3(0.0);
+        vec3 glints = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
         bool sunny = false;
         vec3 sunlight = vec3(0.0);
@@ -451,22 +493,32 @@ void main()
             if (sunny) {
                 sunlight = frame.sun_illuminance * sun_cookie(position, view_m);
                 direct += shadowed_light(p, frame.sun_direction, visible) * sunlight;
-                if (SPARKLE != 0u && g.weather.z > 0.0)
-                    direct += sparkle(p, g.weather.z, view_m) * (sunlight * visible);
+                if (SPARKLE != 0u && g.weather.z > 0.0) {
+                    const vec3 crystals = sparkle(p, g.weather.z, view_m) * (sunlight * visible);
+                    if (composes) glints = crystals;
+                    else direct += crystals;
+                }
             }
         }
         // Lamps whose light the map holds are in it.
         const float lamps = BAKED != 0u ? 1.0 - g.baked_shadow.share * g.baked_shadow.lamps : 1.0;
         add_lights(direct, p, lamps, there, texel);
+        Gathered gathered;
+        if (GATHERS != 0u) {
+            gathered = gather_rest(p, direct, sunlight, lamps, there, texel);
+            if (composes) direct = model_compose(p, gathered.sum) + gathered.rest + glints;
+        }
         // Occlusion maps tell of the sky; on sun and lamps they are a choice.
         const vec3 own = model_own(p);
         const float direct_open = mix(1.0, m.occlusion, frame.occlusion_direct);
         radiance = own + direct * direct_open;
         if (PARTS != 0u) {
-            const LitPoint q = mirroring_part(p);
+            LitPoint q = mirroring_part(p);
+            if (composes) q.gathers = GATHERS_REST;
             vec3 bright = vec3(0.0);
             if (sunny) bright = shadowed_light(q, frame.sun_direction, p.sunlit) * sunlight;
             add_lights(bright, q, lamps, there, texel);
+            if (composes) bright += model_compose(q, gathered.sum) + glints;
             parts.of[PART_EMITTED] = own;
             parts.of[PART_SPECULAR_DIRECT] = bright * direct_open;
             parts.of[PART_DIFFUSE_DIRECT] = (direct - bright) * direct_open;

@@ -49,6 +49,7 @@ struct LightingVariant {
     GpuImage* shares = nullptr;      ///< of textures of layers; null: there are none
     std::uint32_t layers = 0;        ///< LAYERS_... of what is in the picture
     std::vector<bool> models{true};  ///< by number: something in the picture has it
+    bool gathers = false;  ///< one of them gathers light before its material is asked
 };
 
 // Where a surface is: applies weather to the dry material, then light, and adds the sample to the sum.

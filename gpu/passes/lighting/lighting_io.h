@@ -24,6 +24,7 @@
 #define LIGHTING_SPEC_LAZAROV 15  // another fit of what is mirrored
 #define LIGHTING_SPEC_HORIZON 16
 #define LIGHTING_SPEC_SNOW_SCATTER 17
+#define LIGHTING_SPEC_GATHERS 18      // models of users' own that gather light first are in the picture
 #define LIGHTING_SPEC_SHARES 19      // textures of layers: gpu/frame/layer_shares.glsl
 #define LIGHTING_SPEC_SOFT_LAMPS 20
 #define LIGHTING_SPEC_SUN 21      // 0: it does not shine

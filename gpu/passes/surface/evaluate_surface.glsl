@@ -63,6 +63,8 @@ SurfaceData evaluate_surface(SurfaceInput at)
     // The dry material. Water only moves where it is read; the rest is apply_weather's, in the light.
     const vec2 shift = cover.refraction;
     SurfaceData data;
+    data.opacity = -1.0;
+    data.filtered = vec3(1.0);
     const Factors factors = factors_of(at);
     vec3 base = factors.base_color * at.color.rgb;
     float second_occlusion = 1.0;

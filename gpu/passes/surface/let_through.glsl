@@ -21,10 +21,11 @@ vec3 body_attenuation(float share)
                vec3(share * material.thickness_factor / material.attenuation_distance));
 }
 
-LetThrough let_through(SurfaceInput at, vec3 base_color, float metallic, vec3 f0, vec3 normal)
+// opacity: of a surface of one's own, which keeps its reflections; below 0: the material's alpha
+LetThrough let_through(SurfaceInput at, vec3 base_color, float metallic, vec3 f0, vec3 normal, float opacity)
 {
     const bool blends = material.alpha_mode == ALPHA_BLEND;
-    const float alpha = blends ? clamp(surface_alpha(at), 0.0, 1.0) : 1.0;
+    const float alpha = blends ? clamp(opacity < 0.0 ? surface_alpha(at) : opacity, 0.0, 1.0) : 1.0;
     const vec3 to_eye = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u
                             ? -frame.forward
                             : normalize(frame.camera_m - at.position);
@@ -38,7 +39,7 @@ LetThrough let_through(SurfaceInput at, vec3 base_color, float metallic, vec3 f0
     l.matt = 1.0 - passes;
     l.whole = alpha;
     l.through = vec3(1.0 - alpha);
-    if (material.premultiplied_alpha != 0u) {
+    if (material.premultiplied_alpha != 0u || opacity >= 0.0) {
         l.matt *= alpha;
         l.whole = 1.0;
         l.through *= 1.0 - mirrored;

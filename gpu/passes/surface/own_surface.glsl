@@ -8,6 +8,9 @@
 //       at the end. data.texel holds the dry material (base_color, roughness, metallic, base_normal,
 //       occlusion, porosity), data.texel.weather the film, water, snow and frost here, data.emission
 //       the radiance. What weather does to the material is worked out from these, in the light.
+//       Of a material that is blended (alphaMode BLEND) data.opacity is the share of what lies behind that
+//       is hidden, 0..1, reflections stay whole (as long as it is below 0, the material's alpha holds), and
+//       data.filtered what is let through of the rest, by colour. Its shadow goes by the material's alpha.
 //
 // What a point is asked with (gpu/passes/surface/surface_data.glsl): at.position in the world, metres;
 // at.normal and at.tangent of the geometry; at.uv, both texture coordinates; at.color and at.weather of the
@@ -18,7 +21,7 @@
 // constants of the material (gpu/upload/material_io.h). No derivative may be taken: at.position_dx and
 // the like are given. Random numbers are hashes of places (formulas/noise/noise.h).
 //
-// Such a scene is shaded from a visibility buffer, whatever [render] surface_path says.
+// What is solid is then shaded from a visibility buffer, whatever [render] surface_path says.
 #ifndef PETRICHOR_OWN_SURFACE_GLSL
 #define PETRICHOR_OWN_SURFACE_GLSL
 

@@ -108,6 +108,8 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 for (const Draw* draw : draws) {
                     const bool holes = has_holes(scene, *draw);
                     GraphicsDesc shaded = desc;
+                    const std::uint32_t own = scene.materials()[draw->material].own_surface;
+                    if (layered && own != 0) shaded.fragment = kOwnTransparentShader;
                     shaded.specialization = {
                         {SURFACE_SPEC_HOLES, holes && chance},
                         {SURFACE_SPEC_SLOTS, scene.materials()[draw->material].slots},
@@ -127,6 +129,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_FADE, draw->fade != 0},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     if (layered) shaded.specialization.push_back({SURFACE_SPEC_LAYER_FIRST, first});
+                    if (layered && own != 0) shaded.specialization.push_back({SURFACE_SPEC_OWN, own});
                     shaded.depth_equal = depth_first && !holes;
                     record(shaded, *draw, true);
                 }

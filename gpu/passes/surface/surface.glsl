@@ -78,10 +78,10 @@ void main()
     if (FIRST == 0u && gl_FragCoord.z >= texelFetch(depth_before, at.pixel, 0).r) discard;
     if (material.alpha_mode == ALPHA_MASK && surface_alpha(at) < material.alpha_cutoff) discard;
     LetThrough l = let_through(at, data.texel.base_color, data.texel.metallic, data.texel.f0,
-                               data.texel.base_normal);
+                               data.texel.base_normal, data.opacity);
     if (HOLES != 0u) l = LetThrough(1.0, 1.0, vec3(0.0), 1.0);  // by chance: it is here, or it is not
     data.texel.base_color *= l.matt;
-    data.texel.baked = l.through;
+    data.texel.baked = l.through * data.filtered;
     data.texel.baked_sky = l.whole;
     data.texel.body = l.body;
 #endif

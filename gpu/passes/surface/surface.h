@@ -13,6 +13,9 @@
 
 namespace petrichor::gpu {
 
+/// The layers' shader with users' own surfaces in it; added to the pipelines when one of them is blended.
+inline constexpr const char* kOwnTransparentShader = "own_transparent.frag";
+
 /// What a layer of transparent surfaces is drawn between (passes/transparent).
 struct SurfaceLayer {
     GpuImage* solid_depth = nullptr;  ///< nothing behind it is drawn

@@ -37,6 +37,8 @@ struct SurfaceData {
     LayerShares shares;
     bool hole;      // nothing is here: cut out, or let through by chance
     float alpha;    // with SURFACE_ALPHA: where parallax has moved the point
+    float opacity;  // of what lets light through: share of what lies behind that it hides; below 0: the material's
+    vec3 filtered;  // .. and of the rest what it lets through, by colour
 };
 
 // Unit axes of the texture coordinates on the surface.

@@ -20,6 +20,7 @@ constexpr float kLowStep = 0.25f;  // of that step: lower ones are joints
 
 constexpr float kWidestGap_m = 0.14f;
 constexpr float kBevel_m = 0.03f;
+constexpr float kBesideJoint_m = 0.03f;
 constexpr float kOver_m = 0.12f;    // rays start so high
 
 float step_m(const Tracer& tracer)
@@ -40,6 +41,13 @@ float drop_beyond_m(const Tracer& tracer, const vec3& at, const vec2& out)
     const vec3 from = at + vec3(out.x, 0.0f, out.y) * kBeyond_m + vec3(0.0f, kOver_m, 0.0f);
     const RayHit hit = tracer.nearest({from, vec3(0.0f, -1.0f, 0.0f), kOver_m + kDeepDrop_m});
     return hit.hit() ? hit.distance_m - kOver_m : kDeepDrop_m;
+}
+
+// Whether a border looks along the joint between two blocks: ground on both sides of where it looks.
+bool at_a_joint(const Tracer& tracer, const vec3& at, const vec2& out, const vec3& along)
+{
+    const vec3 there = at + vec3(out.x, 0.0f, out.y) * kBeyond_m;
+    return ground_at(tracer, there + along * kBesideJoint_m) && ground_at(tracer, there - along * kBesideJoint_m);
 }
 
 std::uint64_t cell_of(int x, int z)
@@ -110,7 +118,9 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
             const auto f = static_cast<float>(k);
             const vec3 middle = at(f + 0.5f);
             Border piece{at(f), at(f + 1.0f), out};
-            const Beyond there = beyond(tracer, middle, out);
+            Beyond there = beyond(tracer, middle, out);
+            const bool joint = there == Beyond::Nothing && at_a_joint(tracer, middle, out, along / glm::length(along));
+            if (joint) there = Beyond::Ground;
             if (there != Beyond::Wall) piece.drop_m = drop_beyond_m(tracer, middle, out);
             // The bevelled corner of a block looks over the end of the next: that is no slot.
             if (there == Beyond::Nothing && glm::length(along) > kBevel_m) piece.gap_m = gap_beyond_m(tracer, middle, out);
@@ -118,7 +128,7 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
                          : piece.gap_m < 1.0f     ? borders.slots
                                                   : borders.open;
             list.push_back(piece);
-            if (there == Beyond::Ground && piece.drop_m > kLowStep * step_m(tracer)) borders.low.push_back(piece);
+            if (there == Beyond::Ground && !joint && piece.drop_m > kLowStep * step_m(tracer)) borders.low.push_back(piece);
         }
     }
     return borders;

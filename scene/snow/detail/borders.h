@@ -23,8 +23,7 @@ struct Border {
     glm::vec2 out{0.0f};  ///< unit, world x and z
     float gap_m = 1.0e9f;  ///< open: until ground goes on behind a slot or joint; 1e9: it does not
     float drop_m = kDeepDrop_m;  ///< open: how far below it what lies beyond is
-    std::uint32_t beyond = SnowCaps::kNone;  ///< open: the point of the caps nearest to there ..
-    std::uint32_t above = SnowCaps::kNone;   ///< .. and that on top, a hand in from the edge
+    std::uint32_t beyond = SnowCaps::kNone;  ///< open: the point of the caps nearest to there
 };
 
 /// What lies beyond a border.

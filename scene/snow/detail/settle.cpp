@@ -18,40 +18,22 @@ using glm::vec3;
 constexpr float kRepose = 1.0f;       // tangent of 45 degrees: dry snow
 constexpr float kShoulder = 0.4f;     // height of what stands upright at a level edge, over the half width below
 constexpr float kRounded = 0.6f;      // what is left of a heap at repose that the wind has rounded
-constexpr int kSmoothed = 24;         // passes over the neighbours, by which snow forgets the stones below
-constexpr float kFill_m = 0.02f;      // of relief, up or down
 constexpr float kJoined_m = 0.35f;    // between vertices of two surfaces, along and across their joint
 constexpr float kJoinedStep_m = 0.05f;
-constexpr float kFarFromEdges_m = 0.4f;
-constexpr float kLaid_m = 0.06f;      // a lid on the ground stands at most so far over it
-constexpr float kDips_m = 0.03f;      // its snow goes under that of the ground so far at its rim ..
-constexpr float kDipWidth_m = 0.14f;  // .. from there on
 constexpr float kSticks_m = 0.012f;   // what holds on any slope
-constexpr int kSpread = 12;           // edges that the rim of a lid is told over
+constexpr float kNowhere_m = 1.0e8f;
 constexpr float kAtBorder_m = 1.0e-3f;
-constexpr float kPoor_m = 0.4f;       // of the point on top of an edge: its bevel holds little
 constexpr float kFound_m = 0.5f;      // within this a point tells what lies beyond an edge; up and down a quarter of it
-
-// How far points are from the rim of what lies on ground that goes on below it, as a manhole's lid: 0 at its rim, far for
-// all others. There are two sheets of snow, which would meet in a hair line.
-std::vector<float> rims_on_ground(const SnowCaps& caps, const std::vector<bool>& joined, const Tracer& tracer)
-{
-    std::vector<float> away(caps.points.size(), kDipWidth_m);
-    for (std::size_t i = 0; i < caps.points.size(); ++i) {
-        const SnowCaps::Point& point = caps.points[i];
-        const float length = glm::length(point.bridge_m);
-        if (!(length > 0.0f) || point.slot_m < kAtBorder_m || point.edge_m < kAtBorder_m || joined[i]) continue;
-        const vec2 in = point.bridge_m * (-0.02f / length);
-        const vec3 below = point.base_m + vec3(in.x, -0.002f, in.y);
-        if (tracer.blocked({below, vec3(0.0f, -1.0f, 0.0f), kLaid_m})) away[i] = 0.0f;
-    }
-    return away;
-}
 
 using Next = std::pair<float, std::uint32_t>;
 using Queue = std::priority_queue<Next, std::vector<Next>, std::greater<>>;
 
 }  // namespace
+
+float snow_on_slope(float up)
+{
+    return std::clamp((1.04719755f - std::acos(std::clamp(up, 0.0f, 1.0f))) / 0.52359878f, 0.0f, 1.0f);
+}
 
 void find_beyond(std::vector<Border>& edges, const SnowCaps& caps)
 {
@@ -61,8 +43,7 @@ void find_beyond(std::vector<Border>& edges, const SnowCaps& caps)
     std::map<std::pair<int, int>, std::vector<std::uint32_t>> cells;
     for (std::uint32_t i = 0; i < caps.points.size(); ++i)
         cells[cell_of(caps.points[i].base_m.x, caps.points[i].base_m.z)].push_back(i);
-    // poor: how many metres off counts as much as a point that holds no snow.
-    const auto nearest_to = [&](const vec3& place, float poor) {
+    const auto nearest_to = [&](const vec3& place) {
         float best = kFound_m;
         std::uint32_t found = SnowCaps::kNone;
         const auto middle = cell_of(place.x, place.z);
@@ -72,7 +53,7 @@ void find_beyond(std::vector<Border>& edges, const SnowCaps& caps)
             for (const std::uint32_t i : cell->second) {
                 const vec3 way = caps.points[i].base_m - place;
                 // On what lies there, not on a kerb above or below it.
-                const float apart = glm::length(vec2(way.x, way.z)) + 4.0f * std::abs(way.y) + poor * (1.0f - caps.points[i].share);
+                const float apart = glm::length(vec2(way.x, way.z)) + 4.0f * std::abs(way.y);
                 if (apart >= best) continue;
                 best = apart;
                 found = i;
@@ -84,8 +65,7 @@ void find_beyond(std::vector<Border>& edges, const SnowCaps& caps)
         if (!(edge.drop_m < kDeepDrop_m)) continue;
         const vec3 middle = 0.5f * (edge.from + edge.to);
         const vec3 out(kBeyond_m * edge.out.x, 0.0f, kBeyond_m * edge.out.y);
-        edge.above = nearest_to(middle - 2.0f * out, kPoor_m);
-        edge.beyond = nearest_to(middle + out - vec3(0.0f, edge.drop_m, 0.0f), 0.0f);
+        edge.beyond = nearest_to(middle + out - vec3(0.0f, edge.drop_m, 0.0f));
     }
 }
 
@@ -121,69 +101,6 @@ std::vector<Joint> joints_of(const SnowCaps& caps)
     return joints;
 }
 
-void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& joints, const Tracer& tracer)
-{
-    const std::size_t count = caps.points.size();
-    // Near an open edge the angle of repose makes both sides of a joint one sheet by itself (hold_by_repose).
-    std::vector<Joint> level;
-    std::vector<bool> joined(count, false);
-    for (const Joint& joint : joints) {
-        joined[joint.here] = true;
-        if (std::min(caps.points[joint.here].edge_m, caps.points[joint.beyond].edge_m) > kFarFromEdges_m)
-            level.push_back(joint);
-    }
-    std::vector<bool> smoothed(count, false);
-    for (const Joint& joint : level) smoothed[joint.here] = true;
-    std::vector<float> height(count);
-    for (std::size_t i = 0; i < count; ++i) height[i] = caps.points[i].base_m.y;
-    for (int pass = 0; pass < kSmoothed; ++pass) {
-        std::vector<float> sum(height), weight(count, 1.0f);
-        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-            const Primitive& p = mesh.primitives[i];
-            for (std::size_t k = 0; k < p.indices.size(); ++k) {
-                const std::uint32_t a = mesh.points[i][p.indices[k]];
-                const std::uint32_t b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
-                const float share = std::min(0.05f / std::max(glm::distance(caps.points[a].base_m,
-                                                                            caps.points[b].base_m), 0.02f), 1.0f);
-                sum[a] += share * height[b];
-                weight[a] += share;
-                sum[b] += share * height[a];
-                weight[b] += share;
-            }
-        }
-        for (const Joint& joint : level) {
-            const float share = std::min(0.05f / std::max(joint.apart_m, 0.02f), 1.0f);
-            sum[joint.here] += share * height[joint.beyond];
-            weight[joint.here] += share;
-        }
-        for (std::size_t i = 0; i < count; ++i) height[i] = sum[i] / weight[i];
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        SnowCaps::Point& point = caps.points[i];
-        const float inside = shared::smooth_edge(0.05f, 0.25f, point.edge_m) *
-                             (glm::length(point.bridge_m) > 0.0f && !smoothed[i] ? 0.0f : 1.0f);
-        point.fill_m = inside * std::clamp(height[i] - point.base_m.y, -kFill_m, kFill_m);
-    }
-    // Along the surface: the ground beside the lid keeps its height.
-    std::vector<float> away = rims_on_ground(caps, joined, tracer);
-    for (int pass = 0; pass < kSpread; ++pass) {
-        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-            const Primitive& p = mesh.primitives[i];
-            for (std::size_t k = 0; k < p.indices.size(); ++k) {
-                const std::uint32_t a = mesh.points[i][p.indices[k]];
-                const std::uint32_t b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
-                const float length = glm::distance(caps.points[a].base_m, caps.points[b].base_m);
-                away[a] = std::min(away[a], away[b] + length);
-                away[b] = std::min(away[b], away[a] + length);
-            }
-        }
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        const float dip = 1.0f - shared::smooth_edge(0.0f, kDipWidth_m, away[i]);
-        caps.points[i].fill_m -= dip * (kDips_m + std::max(caps.points[i].fill_m, 0.0f));
-    }
-}
-
 void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals,
                     const std::vector<Joint>& joints)
 {
@@ -203,6 +120,7 @@ void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>
     for (const Joint& joint : joints) beside[joint.here].emplace_back(joint.beyond, kRepose * joint.apart_m);
     // How high the snow may reach: from the lowest edge upwards (Dijkstra 1959), ties by number.
     std::vector<float> top(count, 1.0e30f), upright(count, 0.0f);
+    std::vector<std::uint32_t> edge(count, SnowCaps::kNone);
     Queue queue;
     for (std::uint32_t i = 0; i < count; ++i) {
         const SnowCaps::Point& point = caps.points[i];
@@ -210,6 +128,7 @@ void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>
         const float level = shared::smooth_edge(0.77f, 0.95f, normals[i].y);
         top[i] = point.base_m.y;
         upright[i] = kSticks_m + level * kShoulder * point.support_m;
+        edge[i] = i;
         queue.emplace(top[i], i);
     }
     while (!queue.empty()) {
@@ -221,13 +140,20 @@ void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>
             if (there - caps.points[other].base_m.y > kDeepestSnow_m + 1.0f || there >= top[other]) continue;
             top[other] = there;
             upright[other] = upright[i];
+            edge[other] = edge[i];
             queue.emplace(there, other);
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
         if (top[i] >= 1.0e29f) continue;
         const float room = std::max(top[i] - caps.points[i].base_m.y, 0.0f);
-        caps.points[i].most_m = upright[i] + kRounded * room;
+        SnowCaps::Point& point = caps.points[i];
+        point.most_m = upright[i] + kRounded * room;
+        // Where deep snow closes the step at that edge, nothing holds it.
+        if (point.edge_m > kNowhere_m) {
+            point.drop_m = caps.points[edge[i]].drop_m;
+            point.beyond = caps.points[edge[i]].beyond;
+        }
     }
 }
 

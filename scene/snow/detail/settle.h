@@ -1,18 +1,20 @@
-// How snow settles on the points of its caps: over joints, over stones, and as steep as it holds.
+// How snow settles on the points of its caps: over joints, and as steep as it holds.
 #ifndef PETRICHOR_SCENE_SNOW_DETAIL_SETTLE_H
 #define PETRICHOR_SCENE_SNOW_DETAIL_SETTLE_H
 
 #include <cstdint>
 #include <vector>
 
-#include "scene/patches/tracer.h"
 #include "scene/snow/detail/borders.h"
 #include "scene/snow/snow_caps.h"
 #include "scene/subdivide/subdivide.h"
 
 namespace petrichor::scene::detail {
 
-/// Of edges with ground beyond: the points there and above.
+/// What of the depth a slope holds, by y of its normal. EN 1991-1-3: all of it up to 30 degrees, none from 60 on.
+float snow_on_slope(float up);
+
+/// Of edges with ground beyond: the points there.
 void find_beyond(std::vector<Border>& edges, const SnowCaps& caps);
 
 /// Points of neighbouring surfaces that snow lies over as one, though no vertex is shared: a kerb and the bed behind it,
@@ -22,10 +24,6 @@ struct Joint {
     float apart_m;  // in plan
 };
 std::vector<Joint> joints_of(const SnowCaps& caps);
-
-/// Deep snow fills joints and hides the crowns of stones: the heights of points, smoothed among neighbours, those beyond
-/// a joint too: at a border that has none the snow ends at its wall. Sets fill_m.
-void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& joints, const Tracer& tracer);
 
 /// Snow slides off where its own surface would be steeper than repose, from the edges on: round things carry
 /// what lies on their crown and little at their sides. Sets most_m; normals of the points.

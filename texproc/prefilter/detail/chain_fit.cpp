@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "base/parallel.h"
@@ -27,6 +28,7 @@ constexpr float kFlicker =
     0.5f;  // what changes between two moments counts so much beside all of the error
 constexpr float kKeep = 0.9f, kKeepSquare = 0.99f;  // of Adam (Kingma & Ba 2015)
 constexpr float kNothing2 = 3e-6f;                  // a mean square of errors that nobody sees
+constexpr float kWorseMetal = 2.0f;
 constexpr float kDegree = 0.0174532925f, kTurn = 6.28318531f;
 
 class Dice {
@@ -59,41 +61,74 @@ glm::vec3 direction(float azimuth, float height)
     return {portable_cos(azimuth) * flat, portable_sin(azimuth) * flat, portable_sin(height)};
 }
 
-// Lights for an eye that looks along an azimuth: highlights are ahead, so most are there.
-void draw_lights(Dice& dice, float azimuth, const glm::vec3& eye, FitLights& to)
+// What a light of a view is drawn from (docs/textures.md, 7): the stated distribution of lights.
+enum class Around { Ahead, High, Beside, Behind, Anywhere, Window, Sky };
+void draw_light(Dice& dice, Around around, bool metal, float azimuth, const glm::vec3& eye,
+                std::size_t i, FitLights& to)
 {
-    struct Range {
-        float low, high;
-    };
-    constexpr Range kHeights[kFitLights] = {{12.0f, 30.0f}, {20.0f, 45.0f}, {35.0f, 70.0f},
-                                            {20.0f, 65.0f}, {20.0f, 65.0f}, {20.0f, 65.0f},
-                                            {15.0f, 50.0f}, {15.0f, 40.0f}};
-    constexpr std::size_t kBeside = 3, kBehind = 4, kAnywhere = 5, kWindow = 6, kMetal = 7;
-    constexpr float kWindowAlpha = 0.11f, kAhead = 0.45f;  // radians, of a Gaussian
-    for (int c = 0; c < 3; ++c) to.eye[c] = eye[c];
-    for (std::size_t i = 0; i < kFitLights; ++i) {
-        float around = azimuth;
-        if (i == kBeside) {
-            const float side = dice(-1.0f, 1.0f) < 0.0f ? -1.0f : 1.0f;
-            around += side * dice(0.6f, 1.8f);
-        } else if (i == kBehind) {
-            around += 0.5f * kTurn + dice(-1.0f, 1.0f);
-        } else if (i == kAnywhere) {
-            around = dice(0.0f, kTurn);
-        } else {
-            around += kAhead * dice.gaussian();
-        }
-        const glm::vec3 l = direction(around, kDegree * dice(kHeights[i].low, kHeights[i].high));
-        const glm::vec3 h = glm::normalize(l + eye);
-        to.lx[i] = l.x, to.ly[i] = l.y, to.lz[i] = l.z;
-        to.hx[i] = h.x, to.hy[i] = h.y, to.hz[i] = h.z;
-        const float f0 = i == kMetal ? kMetalF0 : kPaintF0;
-        const float m = 1.0f - std::clamp(glm::dot(l, h), 0.0f, 1.0f), m2 = m * m;
-        to.fresnel[i] = f0 + (1.0f - f0) * (m2 * m2 * m);
-        to.albedo[i] =
-            i == kMetal ? 0.0f : (1.0f - to.fresnel[i]) * kPaintAlbedo * (1.0f / shared::kPi);
-        to.alpha2[i] = i == kWindow ? kWindowAlpha * kWindowAlpha : 0.0f;
+    float low = 20.0f, high = 65.0f, turned = 0.0f;
+    constexpr float kAhead = 0.45f;  // radians, of a Gaussian: highlights are ahead, so most are
+    if (around == Around::Beside) {
+        const float side = dice(-1.0f, 1.0f) < 0.0f ? -1.0f : 1.0f;
+        turned = side * dice(0.6f, 1.8f);
+    } else if (around == Around::Behind) {
+        turned = 0.5f * kTurn + dice(-1.0f, 1.0f);
+    } else if (around == Around::Anywhere) {
+        turned = dice(0.0f, kTurn);
+    } else {
+        turned = kAhead * dice.gaussian();
+        low = around == Around::High ? 30.0f : 12.0f;
+        high = around == Around::High ? 70.0f : 45.0f;
     }
+    const glm::vec3 l = direction(azimuth + turned, kDegree * dice(low, high));
+    const glm::vec3 h = glm::normalize(l + eye);
+    to.lx[i] = l.x, to.ly[i] = l.y, to.lz[i] = l.z;
+    to.hx[i] = h.x, to.hy[i] = h.y, to.hz[i] = h.z;
+    const float m = 1.0f - std::clamp(glm::dot(l, h), 0.0f, 1.0f), m2 = m * m, rim = m2 * m2 * m;
+    const float sun = around == Around::Sky ? 0.0f : 1.0f;
+    const float paint = kPaintF0 + (1.0f - kPaintF0) * rim;
+    to.fresnel[i] = sun * (metal ? rim : paint);
+    to.fresnel_metal[i] = metal ? sun * kMetalF0 * (1.0f - rim) : 0.0f;
+    to.albedo[i] = metal ? 0.0f : sun * (1.0f - paint) * kPaintAlbedo * (1.0f / shared::kPi);
+    const float window = dice(0.08f, 0.14f);
+    to.alpha2[i] = around == Around::Window ? window * window : 0.0f;
+    // Beside half of the suns the sky gives a tenth to a third of the light; beside all that metal is
+    // not ahead of, since it would be black without.
+    const bool needs_sky =
+        metal && (around == Around::Beside || around == Around::Behind || around == Around::Anywhere);
+    const bool has_sky = needs_sky || dice(0.0f, 1.0f) < 0.5f;
+    const float beside = has_sky ? dice(0.05f, 0.2f) : 0.0f;
+    to.sky[i] = around == Around::Sky ? 1.0f : around == Around::Window ? 0.0f : beside;
+    to.f0[i] = metal ? 0.0f : kPaintF0;
+    to.f0_metal[i] = metal ? kMetalF0 : 0.0f;
+    to.sky_albedo[i] = metal ? 0.0f : kPaintAlbedo * (1.0f - kPaintF0);
+}
+
+// The eight of a view; of both classes, five on paint and three on metal.
+void draw_lights(Dice& dice, SurfaceClass surface, float azimuth, const glm::vec3& eye, FitLights& to)
+{
+    using enum Around;
+    for (int c = 0; c < 3; ++c) to.eye[c] = eye[c];
+    std::size_t number = 0;
+    const auto add = [&](bool metal, std::initializer_list<Around> one_of) {
+        const Around around = *(one_of.begin() + dice.whole() % one_of.size());
+        draw_light(dice, around, metal, azimuth, eye, number++, to);
+    };
+    if (surface == SurfaceClass::Both) {
+        add(false, {Ahead});
+        add(false, {Ahead, High});
+        add(false, {Beside});
+        add(false, {Behind});
+        add(false, {Window, Window, Sky, Anywhere});
+        add(true, {Ahead});
+        add(true, {Ahead, High, Beside, Sky});
+        add(true, {Beside, Behind, Behind, Anywhere});
+        return;
+    }
+    const bool metal = surface == SurfaceClass::Metal;
+    for (const Around around : {Ahead, Ahead, High, Beside, Behind, Window}) add(metal, {around});
+    add(metal, {Anywhere, Ahead});
+    add(metal, {Sky, Behind});
 }
 
 // Of one eye: how its pixels lie in texels of level 0.
@@ -135,6 +170,7 @@ private:
     std::size_t first_ = 1, last_ = 0;  // levels that are fitted
     std::vector<Pool> pools_;
     bool seen_ = false;  // plain mips are off somewhere
+    const bool colors_metal_;
     // Of Adam: means of slopes and of their squares, and steps, of a level.
     std::vector<std::vector<FitSlope>> mean_;
     std::vector<std::vector<FitSlope>> square_;
@@ -148,6 +184,7 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
       meaning_{options.smoothness, options.alpha},
       texels_(plain.size()),
       plain_texels_(plain.size()),
+      colors_metal_(!chain.metal_share.empty()),
       mean_(plain.size()),
       square_(plain.size()),
       steps_(plain.size(), 0)
@@ -166,11 +203,12 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
         for (std::size_t i = 0; i < texels_[k].size(); ++i) {
             const Texel t = plain[k].at(i);
             FitTexel& to = texels_[k][i];
-            to = {{t.n.x, t.n.y, t.n.z}, t.stored, 1.0f, {}};
+            to = {{t.n.x, t.n.y, t.n.z}, t.stored, 1.0f, 1.0f, {}};
             plain_texels_[k][i] = to;
             if (k == 0) continue;
             to.stored = chain.roughness[k].pixels[i];
             if (k < chain.base_share.size()) to.share = chain.base_share[k].pixels[i];
+            if (k < chain.metal_share.size()) to.metal = chain.metal_share[k].pixels[i];
         }
         mean_[k].resize(k ? count(k) : 0);
         square_[k].resize(k ? count(k) : 0);
@@ -198,7 +236,7 @@ void ChainFit::draw(Pool& pool, std::size_t number)
         const float azimuth = dice(0.0f, kTurn), down = kDegree * dice(9.0f, 60.0f);
         const glm::vec2 ahead(portable_cos(azimuth), portable_sin(azimuth));
         const glm::vec3 eye(-ahead * portable_cos(down), portable_sin(down));
-        draw_lights(dice, azimuth, eye, view.lights);
+        draw_lights(dice, options_.surface, azimuth, eye, view.lights);
         const float longer = 1.0f / portable_sin(down);  // than across
         constexpr float kOneTap = 0.15f;
         view.taps = dice(0.0f, 1.0f) < kOneTap ? 1 : static_cast<int>(std::ceil(longer));
@@ -297,6 +335,10 @@ bool ChainFit::show(const Footprint& footprint, std::size_t fine, FitView& view,
     bool off = false;
     for (std::size_t l = 0; l < kFitLights; ++l) {
         view.weight[l] = 1.0f / std::sqrt(plain[l].squares * now[l].squares);
+        // One lobe cannot be wide enough ahead and narrow enough behind: what step 2 made worse on metal
+        // comes first.
+        if (view.lights.f0_metal[l] > 0.0f && now[l].squares > plain[l].squares)
+            view.weight[l] *= kWorseMetal;
         view.flicker[l] = kFlicker / std::sqrt(plain[l].changes * now[l].changes);
         off |= plain[l].squares > 2.0f * kNothing2;
     }
@@ -316,11 +358,11 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
         (texels_[k].size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
             const std::size_t end = std::min((block + 1) * kBlock, texels_[k].size());
             for (std::size_t i = block * kBlock; i < end; ++i) {
-                float slope[4] = {};
+                float slope[5] = {};
                 for (std::vector<FitSlope>& slot : slopes_) {
                     FitSlope& s = slot[slot_offset + i];
                     for (int c = 0; c < 3; ++c) slope[c] += s.n[c];
-                    slope[3] += s.stored;
+                    slope[3] += s.stored, slope[4] += s.metal;
                     s = {};
                 }
                 FitSlope &mean = mean_[k][i], &square = square_[k][i];
@@ -334,6 +376,9 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
                 t.stored =
                     std::clamp(moved(t.stored, slope[3], mean.stored, square.stored), 0.0f, 1.0f);
                 if (!options_.joint) continue;
+                if (colors_metal_)
+                    t.metal = std::clamp(
+                        moved(t.metal, slope[4], mean.metal, square.metal), 0.0f, 1.0f);
                 float square_length = 0.0f;
                 for (int c = 0; c < 3; ++c) {
                     t.n[c] = moved(t.n[c], slope[c], mean.n[c], square.n[c]);
@@ -401,6 +446,7 @@ void ChainFit::store(Prefiltered& chain) const
             const FitTexel& t = texels_[k][i];
             chain.roughness[k].pixels[i] = t.stored;
             if (!options_.joint) continue;
+            if (colors_metal_) chain.metal_share[k].pixels[i] = t.metal;
             float* n = &chain.normal[k].pixels[3 * i];
             n[0] = 0.5f + 0.5f * t.n[0];
             n[1] = 0.5f + 0.5f * (options_.green_down ? -t.n[1] : t.n[1]);

@@ -16,9 +16,12 @@ struct FitLights {
     float eye[3];
     float lx[kFitLights], ly[kFitLights], lz[kFitLights];
     float hx[kFitLights], hy[kFitLights], hz[kFitLights];  ///< half-vectors
-    float fresnel[kFitLights];
-    float albedo[kFitLights];  ///< of diffuse light, with what the highlight leaves of it, over pi
+    /// Of the sun: what the highlight mirrors, the part that its base colour takes a share of, and
+    /// diffuse light with what the highlight leaves of it, over pi. All 0: no sun.
+    float fresnel[kFitLights], fresnel_metal[kFitLights], albedo[kFitLights];
     float alpha2[kFitLights];  ///< of the light, squared
+    /// Of the sky: its radiance, F0 and the part of it that is metal, what is diffuse.
+    float sky[kFitLights], f0[kFitLights], f0_metal[kFitLights], sky_albedo[kFitLights];
 };
 
 /// What the channel of a roughness map means.
@@ -26,13 +29,13 @@ struct FitMeaning {
     bool smoothness = false, alpha = false;
 };
 
-/// A level while it is fitted: normal, roughness as stored, share of the base colour; and how the
-/// error changes with normal and roughness.
+/// A level while it is fitted: normal, roughness as stored, shares of the base colour of paint and of
+/// metal; and how the error changes with all but that of paint.
 struct FitTexel {
-    float n[3], stored, share, none[3];
+    float n[3], stored, share, metal, none[2];
 };
 struct FitSlope {
-    float n[3], stored;
+    float n[3], stored, metal, none[3];
 };
 struct FitLevel {
     int width, height;
@@ -60,7 +63,7 @@ struct FitPixel {
 };
 
 struct ChainFitKernel {
-    /// Mean radiance of `count` texels towards the eye: normals, perceptual roughness; share 1.
+    /// Mean radiance of `count` texels towards the eye: normals, perceptual roughness; shares 1.
     void (*mean_light)(const FitLights& lights, const float* nx, const float* ny, const float* nz,
                        const float* p, int count, float* out);
     /// What the filter and one shading make of the pixels, as shown, without clipping or root:

@@ -49,7 +49,8 @@ Filter::Filter(const PrefilterOptions& options, const MapSurface& surface)
         throw Error("prefilter: the rule picture has no design light: it looks at suns and windows",
                     "Leave the design light out, or use the rule overlap.");
     }
-    picture_ = std::make_shared<const PictureLobe>(surface, options.quick);
+    picture_ = std::make_shared<const PictureLobe>(
+        surface, options.quick, !options.quick && options.surface == SurfaceClass::Metal);
 }
 
 FittedLobe Filter::operator()(const MipTexel& t) const

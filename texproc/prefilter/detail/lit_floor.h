@@ -23,7 +23,8 @@ inline constexpr float kNarrowestAlpha = 0.002f;
 struct Texel {
     glm::vec3 n{0.0f, 0.0f, 1.0f};
     float stored = 0.0f;   // roughness as the map holds it
-    float diffuse = 1.0f;  // share of the base colour
+    float diffuse = 1.0f;  // share of the base colour, of paint
+    float metal = 1.0f;    // and of metal
 };
 
 // A texel of level 0, of which there are many.
@@ -92,6 +93,7 @@ struct Level {
             sum.n += t.n * w;
             sum.stored += t.stored * w;
             sum.diffuse += t.diffuse * w;
+            sum.metal += t.metal * w;
         });
     }
 };
@@ -117,11 +119,12 @@ inline float sky_radiance(float up, float width)
     return 0.12f + t * t * (3.0f - 2.0f * t) * (0.88f - 0.5f * std::max(up, 0.0f));
 }
 
-// Radiance towards the eye. Paint: Lambert below the highlight; metal: the highlight alone.
+// Radiance towards the eye. Paint: Lambert below the highlight; metal: the highlight alone. The
+// share is of the base colour: what is diffuse of paint, what metal mirrors.
 inline float shade(const glm::vec3& n, float p, float share, const glm::vec3& to_eye, const FloorLight& light)
 {
     const float own = std::max(p * p, kNarrowestAlpha);
-    const float f0 = light.metal ? kMetalF0 : kPaintF0;
+    const float f0 = light.metal ? kMetalF0 * share : kPaintF0;
     const float albedo = light.metal ? 0.0f : kPaintAlbedo * share;
     float seen = 0.0f;
     if (light.sky > 0.0f) {
@@ -145,6 +148,11 @@ inline float shade(const glm::vec3& n, float p, float share, const glm::vec3& to
     return seen + light.sun * nl *
                       (fresnel * shared::ggx_distribution(nh, alpha) * shared::ggx_visibility(nl, nv, alpha) +
                        (1.0f - fresnel) * albedo * (1.0f / shared::kPi));
+}
+
+inline float shade(const Texel& t, float p, const glm::vec3& to_eye, const FloorLight& light)
+{
+    return shade(t.n, p, light.metal ? t.metal : t.diffuse, to_eye, light);
 }
 
 inline float perceptual(float stored, const PrefilterOptions& input)
@@ -183,7 +191,7 @@ Taps taps_of(const Levels& levels, const FloorPixel& pixel, int most_taps);
 // What one shading of a pixel sees.
 inline Texel filtered(const std::vector<const Level*>& levels, const Taps& taps)
 {
-    Texel sum{glm::vec3(0.0f), 0.0f, 0.0f};
+    Texel sum{glm::vec3(0.0f), 0.0f, 0.0f, 0.0f};
     taps.add_to(sum, *levels[taps.fine], 1.0f - taps.share);
     if (taps.share > 0.0f) taps.add_to(sum, *levels[taps.coarse], taps.share);
     const float length = glm::length(sum.n);

@@ -10,7 +10,8 @@ namespace petrichor::texproc::detail {
 
 namespace {
 
-constexpr float kAlbedo = 0.3f, kF0 = 0.04f;  // paint, stone, soil
+constexpr float kAlbedo = 0.3f, kPaintF0 = 0.04f;  // paint, stone, soil
+constexpr float kMetalF0 = 0.9f;
 constexpr float kNarrowest2 = 4e-6f;
 constexpr int kRefinements = 5;
 
@@ -32,8 +33,10 @@ constexpr float kMiddle = 0.18f, kWhite = 0.9f;
 
 }  // namespace
 
-PictureLobe::PictureLobe(const MapSurface& surface, bool quick) : pairs_(quick ? kMost / 2 : kMost)
+PictureLobe::PictureLobe(const MapSurface& surface, bool quick, bool metal)
+    : pairs_(quick ? kMost / 2 : kMost)
 {
+    const float f0 = metal ? kMetalF0 : kPaintF0, albedo = metal ? 0.0f : kAlbedo;
     // Each pair is turned by the golden angle, so that no direction of the map is preferred.
     const double turn_cos = -0.7373688780783197, turn_sin = 0.6754902942615238;
     double c = 1.0, s = 0.0;
@@ -55,8 +58,8 @@ PictureLobe::PictureLobe(const MapSurface& surface, bool quick) : pairs_(quick ?
             lx_[j] = l.x, ly_[j] = l.y, lz_[j] = l.z;
             hx_[j] = h.x, hy_[j] = h.y, hz_[j] = h.z;
             const float m = 1.0f - dot(l, h), m2 = m * m;
-            fresnel_[j] = kF0 + (1.0f - kF0) * (m2 * m2 * m);
-            diffuse_[j] = (1.0f - fresnel_[j]) * kAlbedo * (1.0f / shared::kPi);
+            fresnel_[j] = f0 + (1.0f - f0) * (m2 * m2 * m);
+            diffuse_[j] = (1.0f - fresnel_[j]) * albedo * (1.0f / shared::kPi);
             light2_[j] = light.alpha * light.alpha;
             exposure_[j] = 1.0f;
             ++j;

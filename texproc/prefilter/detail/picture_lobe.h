@@ -13,8 +13,8 @@ namespace petrichor::texproc::detail {
 /// together, over a fixed set of eyes and lights, as the display shows it.
 class PictureLobe {
 public:
-    /// quick: half of the eyes. How bright each picture is exposed is found from the surface.
-    PictureLobe(const MapSurface& surface, bool quick);
+    /// quick: half of the eyes; metal: nothing is diffuse. How bright each picture is exposed is found from the surface.
+    PictureLobe(const MapSurface& surface, bool quick, bool metal = false);
 
     /// The normal is the mean one, of unit length: what that adds to diffuse light is to be taken
     /// from the base colour (Prefiltered::base_share). Never dearer than the plain mip.

@@ -68,40 +68,64 @@ void settle_fit(const PictureBench& bench, const std::vector<PictureScore>& plai
 {
     // Levels that are fitted, which are small, before and after.
     const std::size_t levels = chain.roughness.size();
-    std::vector<std::array<Image, 2>> before(levels), after(levels);
+    if (options.joint && options.surface != SurfaceClass::Paint) {
+        chain.metal_share.resize(levels);
+        for (std::size_t k = 1; k < levels; ++k)
+            chain.metal_share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,
+                                         ColorSpace::Data, 1.0f);
+    }
+    const bool metal = !chain.metal_share.empty();
+    // Of each level the first goes with what was fitted, the second with the colour of metal.
+    struct Share {
+        float fitted, metal;
+        bool operator==(const Share&) const = default;
+    };
+    using Shares = std::vector<Share>;
+    constexpr std::size_t kParts = 3;
+    const std::array<std::vector<Image>*, kParts> parts{&chain.roughness, &chain.normal,
+                                                        &chain.metal_share};
+    std::vector<std::array<Image, kParts>> before(levels), after(levels);
     const auto keep = [&](std::size_t k) {
-        return std::array<Image, 2>{chain.roughness[k], chain.normal[k]};
+        std::array<Image, kParts> kept;
+        for (std::size_t i = 0; i < kParts; ++i)
+            if (k < parts[i]->size()) kept[i] = (*parts[i])[k];
+        return kept;
     };
     for (std::size_t k = 1; k < levels; ++k)
         if (is_fitted(chain.roughness[k].width, chain.roughness[k].height)) before[k] = keep(k);
-    std::vector<float> best(levels, 0.0f), now(levels, 1.0f);
+    Shares best(levels, {0.0f, 0.0f}), now(levels, {1.0f, 1.0f});
     double least = cost_of(bench.score(chain), plain, false);
     fit_chain(bench.levels(), options, chain);
     for (std::size_t k = 1; k < levels; ++k)
         if (!before[k][0].empty()) after[k] = keep(k);
-    const auto show = [&](const std::vector<float>& shares) {
+    const auto show = [&](const Shares& shares) {
         for (std::size_t k = 1; k < levels; ++k) {
             if (before[k][0].empty() || shares[k] == now[k]) continue;
-            mix(before[k][0], after[k][0], shares[k], chain.roughness[k]);
-            mix(before[k][1], after[k][1], shares[k], chain.normal[k]);
+            for (std::size_t i = 0; i < kParts; ++i)
+                if (k < parts[i]->size())
+                    mix(before[k][i], after[k][i], i == 2 ? shares[k].metal : shares[k].fitted,
+                        (*parts[i])[k]);
         }
         now = shares;
     };
-    const auto attempt = [&](const std::vector<float>& shares) {
+    const auto attempt = [&](const Shares& shares) {
         show(shares);
         const double cost = cost_of(bench.score(chain), plain, false);
         if (!(cost < least - kClear)) return;
         least = cost;
         best = shares;
     };
-    for (const float share : kFitted) attempt(std::vector<float>(levels, share));
+    for (const float share : kFitted) attempt(Shares(levels, {share, share}));
     for (std::size_t k = levels; k-- > 1;) {
         if (before[k][0].empty()) continue;
-        for (const float share : kFittedLevel) {
-            std::vector<float> shares = best;
-            shares[k] = share;
-            if (share != best[k]) attempt(shares);
-        }
+        const auto change = [&](float fitted, float of_metal) {
+            Shares shares = best;
+            shares[k] = {fitted, of_metal};
+            if (!(shares[k] == best[k])) attempt(shares);
+        };
+        for (const float share : kFittedLevel) change(share, best[k].metal);
+        for (const float share : kFittedLevel)
+            if (metal) change(best[k].fitted, share);
     }
     show(best);
 }
@@ -112,7 +136,7 @@ void settle_picture(const MapSurface& surface, const PrefilterOptions& options, 
 {
     const std::size_t levels = chain.roughness.size();
     if (levels < 2) return;
-    PictureOptions pictures = design_pictures(options.quick);
+    PictureOptions pictures = design_pictures(options.quick, options.surface);
     pictures.threads = options.threads;
     const PictureBench bench(surface, options, pictures);
     PictureBench::Blend blend(bench, chain);
@@ -130,9 +154,10 @@ void settle_picture(const MapSurface& surface, const PrefilterOptions& options, 
         least = cost;
         best = shares;
     };
+    const bool paint = options.quick || options.surface != SurfaceClass::Metal;
     // All levels alike first, then one by one, the coarsest first.
     for (const float dark : kDark) {
-        if (options.quick && dark < 1.0f) break;
+        if ((options.quick || !paint) && dark < 1.0f) break;
         for (const float share : kShares)
             if (!options.quick || share <= 1.0f) attempt(alike(share, dark));
     }
@@ -145,6 +170,7 @@ void settle_picture(const MapSurface& surface, const PrefilterOptions& options, 
                 if (share != best.roughness[k]) attempt(shares);
             }
             for (const float dark : kDark) {
+                if (!paint) break;  // metal does not show it
                 Shares shares = best;
                 shares.base[k] = dark;
                 if (dark != best.base[k]) attempt(shares);
