@@ -1,4 +1,4 @@
-// A cube map as texels of a buffer, by which a CPU filters it in a third of the time of a sampler: each texel
+// A cube map as texels of a buffer, by which a CPU filters it in less time than a sampler does: each texel
 // (RGBA32UI) is what a bilinear filter reads, four neighbours in a word each. Where neighbours lie on other faces, they
 // are those; at a corner of the cube the fourth is the mean of the three that there are. So a filter needs no case of
 // its own at edges.

@@ -3,7 +3,7 @@
 #ifndef PETRICHOR_AIR_GLSL
 #define PETRICHOR_AIR_GLSL
 
-#include "gpu/passes/sky/sky_quads_io.h"
+#include "gpu/frame/sky_quads_io.h"
 
 // Share of the light of a point that reaches the camera through the fog, 0..1. Drops and flakes that
 // are drawn one by one are no haze.

@@ -1,11 +1,11 @@
 // The sky's light from the quads of its maps (formulas/light/cube_quads.h). The includer has
 //
-//   usamplerBuffer sky_quads   gpu/passes/sky/sky.h
+//   usamplerBuffer sky_quads   SkyMaps::quads
 #ifndef PETRICHOR_SKY_QUADS_GLSL
 #define PETRICHOR_SKY_QUADS_GLSL
 
 #include "formulas/light/cube_quads.h"
-#include "gpu/passes/sky/sky_quads_io.h"
+#include "gpu/frame/sky_quads_io.h"
 
 // Linear between the texels of a level.
 vec3 quad_light(CubePlace place, int begin, int side)

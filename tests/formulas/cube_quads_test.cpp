@@ -4,7 +4,7 @@
 #include <random>
 
 #include "formulas/light/cube_quads.h"
-#include "gpu/passes/sky/sky_quads_io.h"
+#include "gpu/frame/sky_quads_io.h"
 
 namespace petrichor::shared {
 namespace {

@@ -10,6 +10,7 @@ namespace petrichor::gpu {
 // Looks the light of patches up, once a frame at one or two points of every block of pixels.
 //
 //   reads    depth, normals of the first sample; patches
+//   scratch  mirror_list, mirror_groups
 //   writes   patch_points
 void add_patch_points(FrameGraph& graph, FrameTargets& targets, const PatchLights& patches,
                       const ConstantsRange& constants);

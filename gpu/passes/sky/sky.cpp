@@ -10,10 +10,10 @@
 #include "formulas/light/fog.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/frame_io.h"
+#include "gpu/frame/sky_quads_io.h"
 #include "gpu/frame/sun.h"
 #include "gpu/passes/sky/seen_sky.h"
 #include "gpu/passes/sky/sky_io.h"
-#include "gpu/passes/sky/sky_quads_io.h"
 
 namespace petrichor::gpu {
 

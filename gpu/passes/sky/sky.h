@@ -18,7 +18,7 @@ struct SkyMaps {
     std::unique_ptr<GpuImage> air;       ///< clear air by direction
     std::unique_ptr<GpuImage> cube;      ///< the sky or the environment, with mips
     std::unique_ptr<GpuImage> specular;  ///< as GGX lobes see it, one roughness a mip
-    std::unique_ptr<GpuBuffer> quads;    ///< of specular and of the air's level of cube (sky_quads_io.h)
+    std::unique_ptr<GpuBuffer> quads;    ///< of specular and of the air's level of cube (gpu/frame/sky_quads_io.h)
     std::unique_ptr<GpuImage> env_brdf;  ///< scale and offset of F0
     std::unique_ptr<GpuBuffer> light;    ///< shared::SkyLight
     std::unique_ptr<GpuBuffer> tiles;    ///< of the cube that are drawn next

@@ -1,6 +1,6 @@
 // The quads of the sky's maps: those of sky_specular, then those of one level of sky_cube.
-#ifndef PETRICHOR_GPU_PASSES_SKY_SKY_QUADS_IO_H
-#define PETRICHOR_GPU_PASSES_SKY_SKY_QUADS_IO_H
+#ifndef PETRICHOR_GPU_FRAME_SKY_QUADS_IO_H
+#define PETRICHOR_GPU_FRAME_SKY_QUADS_IO_H
 
 #define SKY_SPECULAR_LOG2 6  // texels a side of its first level; the last has 2
 #define SKY_AIR_MIP 5        // of sky_cube: what the air of a view takes its light from
