@@ -189,9 +189,8 @@ void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& 
         const Sheet& sheet = eye_m(point.base_m) < kNear_m - 1.0f ? near : far;
         const float dip = 1.0f - shared::smooth_edge(0.0f, kDipWidth_m, away[i]);
         const float inside = shared::smooth_edge(0.0f, kAtEdge_m, point.edge_m);
-        float open = point.broad, broad = point.share;
+        float open = point.broad, broad = point.share, seen = 1.0f;
         const vec2 here(point.base_m.x, point.base_m.z);
-        const float seen = shared::smooth_edge(0.04f, 0.16f, sheet.smoothed(here, point.base_m.y, SnowCaps::kFillDepths_m[0]).bare);
         for (std::size_t k = 0; k < SnowCaps::kFills; ++k) {
             const float depth = SnowCaps::kFillDepths_m[k];
             const Sheet::Smoothed there = sheet.smoothed(here + point.bridge_m, point.base_m.y, depth);
@@ -204,7 +203,10 @@ void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& 
             float fill = counts * whole * std::clamp(there.height_m - point.base_m.y, -most, most);
             fill -= dip * (k == 0 ? 0.5f : 1.0f) * (kDips_m + std::max(fill, 0.0f));
             point.fill_m[k] = fill;
-            if (depth == kShelter_m) open = there.open;
+            if (depth == kShelter_m) {
+                open = there.open;
+                seen = shared::smooth_edge(0.08f, 0.2f, there.bare);
+            }
             if (depth == kBroad_m) broad = open * snow_on_slope(1.0f / std::sqrt(1.0f + glm::dot(there.slope, there.slope)));
         }
         // What lies below something else all around, as a wall below its coping, carries none.
