@@ -40,6 +40,7 @@ struct SnowCaps {
         glm::vec2 out{0.0f};          ///< towards that edge, world x and z
         float most_m = 1.0e9f;        ///< of snow that holds here, by the angle of repose from the edges
         std::array<float, kFills> fill_m{};  ///< up to the ground as snow of a depth smooths it: without joints, stones, steps
+        float wide = 1.0f;            ///< 0 on posts and small things, on which no step is closed .. 1 on ground
         float drop_m = 1.0e9f;        ///< of that edge, or of the one that `most_m` is from: how far below it lies what is beyond
         float uneven = 1.0f;          ///< times the depth
         glm::vec2 bridge_m{0.0f};     ///< at a border: into the wall, over the joint or the slot

@@ -10,7 +10,7 @@ namespace petrichor::scene {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x36706163;  // "cap6"
-static_assert(sizeof(SnowCaps::Point) == 23 * sizeof(float), "no padding: bytes are compared");
+static_assert(sizeof(SnowCaps::Point) == 24 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
     std::vector<std::byte> bytes;

@@ -56,7 +56,7 @@ float fallen_m(const SnowCaps::Point& p, float depth_m)
     const float drawn = drawn_snow_m(depth_m) * p.uneven;
     if (p.share == p.broad) return drawn * p.share;
     const float inside = p.edge_m < 0.25f ? shared::smooth_edge(0.05f, 0.25f, p.edge_m) : 1.0f;
-    const float open = inside < 1.0f ? inside + step_closed(p.drop_m, drawn) * (1.0f - inside) : 1.0f;
+    const float open = inside < 1.0f ? inside + p.wide * step_closed(p.drop_m, drawn) * (1.0f - inside) : 1.0f;
     return drawn * (p.share + shared::smooth_edge(0.0f, 0.17f, drawn) * open * (p.broad - p.share));
 }
 
@@ -97,7 +97,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
         fallen[i] = fallen_m(p, depth_m[i]);
-        const float closed = closing[i] = step_closed(p.drop_m, fallen[i]);
+        const float closed = closing[i] = p.wide * step_closed(p.drop_m, fallen[i]);
         const float open = lesser(std::min(fallen[i], kMostOverWidth * p.support_m), p.most_m);
         const float held = open + closed * (fallen[i] - open);
         const float round = p.edge_m < held ? rounded(p.edge_m / width_m(p, held)) : 1.0f;

@@ -121,7 +121,7 @@ TEST(SnowOnKerbs, LeavesNoStoneBetween)
             }
             const double share = static_cast<double>(stone) / all;
             RecordProperty(std::string(kerb.name) + std::to_string(depth), std::to_string(share));
-            EXPECT_LT(share, 0.001) << kerb.name << " " << depth;
+            EXPECT_LT(share, 0.0005) << kerb.name << " " << depth;
         }
     }
 }

@@ -153,7 +153,7 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
             weight += w;
             height += w * (here - own_m);
             open += w * own->open;
-            bare += covered ? 0.0f : w;
+            bare += covered ? 0.0f : w * own->open;
             middle += w * way;
             lean += w * (here - own_m) * way;
             xx += w * way.x * way.x;
@@ -189,9 +189,8 @@ void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& 
         const Sheet& sheet = eye_m(point.base_m) < kNear_m - 1.0f ? near : far;
         const float dip = 1.0f - shared::smooth_edge(0.0f, kDipWidth_m, away[i]);
         const float inside = shared::smooth_edge(0.0f, kAtEdge_m, point.edge_m);
-        float open = point.broad, broad = point.share;
+        float open = point.broad, broad = point.share, seen = 1.0f;
         const vec2 here(point.base_m.x, point.base_m.z);
-        const float seen = shared::smooth_edge(0.02f, 0.2f, sheet.smoothed(here, point.base_m.y, SnowCaps::kFillDepths_m[0]).bare);
         for (std::size_t k = 0; k < SnowCaps::kFills; ++k) {
             const float depth = SnowCaps::kFillDepths_m[k];
             const Sheet::Smoothed there = sheet.smoothed(here + point.bridge_m, point.base_m.y, depth);
@@ -200,10 +199,14 @@ void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& 
             // Of posts and small things most of the circle is not: they keep their shape.
             const float most = std::max(kRelief_m, kMostFill * depth);
             const float whole = shared::smooth_edge(0.35f, 0.6f, there.whole);
+            if (depth == kShelter_m) point.wide = whole;
             float fill = counts * whole * std::clamp(there.height_m - point.base_m.y, -most, most);
             fill -= dip * (k == 0 ? 0.5f : 1.0f) * (kDips_m + std::max(fill, 0.0f));
             point.fill_m[k] = fill;
-            if (depth == kShelter_m) open = there.open;
+            if (depth == kShelter_m) {
+                open = there.open;
+                seen = shared::smooth_edge(0.08f, 0.2f, there.bare);
+            }
             if (depth == kBroad_m) broad = open * snow_on_slope(1.0f / std::sqrt(1.0f + glm::dot(there.slope, there.slope)));
         }
         // What lies below something else all around, as a wall below its coping, carries none.

@@ -21,7 +21,7 @@ public:
         float height_m;
         glm::vec2 slope{0.0f};  ///< rise along x and z
         float open = 0.0f;      ///< mean of what shelter leaves
-        float bare = 1.0f;      ///< share of it that nothing lies over
+        float bare = 1.0f;      ///< mean of `open` where nothing lies over it, 0 elsewhere
         float whole = 0.0f;     ///< share of the circle that is such ground
     };
 
