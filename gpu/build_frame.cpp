@@ -184,6 +184,14 @@ std::vector<Fall> falls_of(const Frame& frame, const VisibleWeather& weather)
     return wanted;
 }
 
+// Pipelines are made for few numbers of directions: a film through rain and snow would ask for each of them, and each
+// is a second of compiling for every material.
+std::size_t rounded_falls(std::size_t count)
+{
+    return count == 0 ? 0 : (count + 1) / 3 * 3 + 1;
+}
+static_assert((SKY_DIRECTIONS + 1) / 3 * 3 + 1 == SKY_DIRECTIONS);
+
 void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeather& weather,
                 const FrameResources& r)
 {
@@ -205,8 +213,10 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
         c.sky_direction[i] =
             glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
     }
+    std::vector<Fall> falls = falls_of(frame, weather);
+    if (!falls.empty()) falls.resize(rounded_falls(falls.size()), {falls.back().direction, 0.0f, 0.0f});
     int k = 0;
-    for (const Fall& fall : falls_of(frame, weather)) {
+    for (const Fall& fall : falls) {
         const int i = fall.direction;
         c.falls[k++] = {c.sky_from_world[i], c.sky_direction[i], fall.rain, fall.snow, i};
     }
@@ -421,7 +431,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     add_depth_maps(graph, frame, sun, r, weathered, plan);
     std::vector<int> directions;
     for (const Fall& fall : falls_of(frame, weather)) directions.push_back(fall.direction);
-    weather.falls = static_cast<std::uint32_t>(directions.size());
+    weather.falls = static_cast<std::uint32_t>(rounded_falls(directions.size()));
     if (settings.shelter && r.depth_maps->sky_valid) add_sky_rows(graph, *r.depth_maps, directions);
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, *r.triangles, r.lights->shadowed);
