@@ -439,7 +439,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     LightingVariant variant;
     variant.weather = weathered;
     variant.split = r.parts->split;
-    variant.sun = sun.illuminance != glm::vec3(0.0f);
+    const bool any = settings.any_light;
+    variant.sun = any || sun.illuminance != glm::vec3(0.0f);
     variant.background = settings.draw_sky;
     variant.shadows = settings.shadows && variant.sun;
     variant.image_based_light = settings.image_based_light;
@@ -454,7 +455,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.rectangles = r.lights->rectangles;
     variant.ways = r.lights->ways | (r.scene->point_lamps() ? LIGHTS_BY_MATERIAL : 0u) | (frame.sun_cookie.first_texel >= 0 ? LIGHTS_SUN_COOKIE : 0u);
     variant.all_lights = settings.all_lights;
-    variant.sparkle = weather.snow && variant.sun && frame.look.snow_sparkle > 0.0f;
+    variant.sparkle = any ? weathered : weather.snow && variant.sun && frame.look.snow_sparkle > 0.0f;
     variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
     if (r.resolve && r.scene->layer_shares()) variant.shares = r.resolve->shares.get();
     if (r.own_lighting) variant.shader = kOwnLightingShader;
@@ -480,8 +481,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             variant.grain = settings.anisotropic_dither > 0.0f &&
                             (variant.layers & LAYERS_ANISOTROPY) != 0u;
             variant.fog = c.fog_per_m > 0.0f;
-            variant.gusts = c.gusts.z > 0.0f;
-            variant.film = settings.film_lobe && weathered && c.weather.film_smoothness > 0.0f;
+            variant.gusts = any || c.gusts.z > 0.0f;
+            variant.film = settings.film_lobe && weathered && (any || c.weather.film_smoothness > 0.0f);
             variant.night =
                 settings.draw_sky && sun.analytic && frame.sky.sun_elevation_rad < -0.03f;
         }

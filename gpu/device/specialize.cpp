@@ -3,8 +3,13 @@
 #ifdef PETRICHOR_SPIRV_TOOLS
 #include <spirv-tools/optimizer.hpp>
 
+#include <condition_variable>
 #include <cstring>
+#include <mutex>
+#include <string>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -97,6 +102,33 @@ private:
     spvtools::Optimizer optimizer_;
 };
 
+// Renderers side by side ask for the same shaders at the same time: who comes second waits for what the first keeps.
+class OneAtATime {
+public:
+    explicit OneAtATime(std::string key) : key_(std::move(key))
+    {
+        std::unique_lock lock(mutex_);
+        done_.wait(lock, [&] { return at_work_.count(key_) == 0; });
+        at_work_.insert(key_);
+    }
+    ~OneAtATime()
+    {
+        {
+            const std::lock_guard lock(mutex_);
+            at_work_.erase(key_);
+        }
+        done_.notify_all();
+    }
+    OneAtATime(const OneAtATime&) = delete;
+    OneAtATime& operator=(const OneAtATime&) = delete;
+
+private:
+    static inline std::mutex mutex_;
+    static inline std::condition_variable done_;
+    static inline std::unordered_set<std::string> at_work_;
+    std::string key_;
+};
+
 }  // namespace
 
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
@@ -114,6 +146,7 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
         hasher.add_bytes(std::as_bytes(std::span(&constant, 1)));
     }
     const std::string key = hasher.text();
+    const OneAtATime only(key);
     if (const auto kept = cache.find(kCacheKind, key); kept && kept->size() % 4 == 0) {
         std::vector<std::uint32_t> words(kept->size() / 4);
         std::memcpy(words.data(), kept->data(), kept->size());

@@ -139,6 +139,7 @@ struct FrameSettings : FrameSwitches {
     SurfacePath surface_path = SurfacePath::Auto;
     bool light_prepass = true;  ///< users' own lighting models that can gather light before they compose it do
     bool coarse_shadows = false;  ///< one map of the sun holds all of the view: for small pictures
+    bool any_light = false;  ///< one pipeline of the lighting for any sun, air, rain and snow: for small pictures
     bool all_lights = false;  ///< every pixel asks every light: slow, for checking light lists
     std::vector<std::string> aovs;  ///< names from aov_table()
 };

@@ -63,6 +63,8 @@ Frame metering_frame(const Frame& frame, MeterOf what)
     small.lens.radius_m = 0.0f;
     s.aovs = metering_aovs(what);
     s.coarse_shadows = true;
+    // The exposure alone has the pipelines of the frame itself; what is scattered is written by others.
+    s.any_light = what != MeterOf::Exposure;
     s.falling = false;  // so small a picture hardly has any
     // What is unlit is divided by the exposure: it must not be metered by itself.
     s.exposure = 1e12f;

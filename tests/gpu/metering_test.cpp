@@ -263,6 +263,38 @@ TEST_F(MeterTest, TheColourOfTheLightIsFoundWhateverItFallsOn)
     EXPECT_EQ(reading.ev100, renderer->meter(frame).ev100) << "and nothing else changes";
 }
 
+// The light is read through one pipeline for any weather: it shows what those of the weather show.
+TEST_F(MeterTest, OnePipelineForAnyLightShowsTheSame)
+{
+    Material wall = plain_material(glm::vec3(0.5f, 0.3f, 0.2f), 0.6f);
+    renderer->load(scene_of({quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), quad({-4, 0, -2}, {8, 0, 0}, {0, 3, 0})}, {wall}), {});
+    const auto frame_of = [](float sun_rad, float film, float snow) {
+        Frame frame = lamp_at_night(100.0f);
+        frame.camera = look({0, 2, 5}, {0, 1, -2});
+        frame.sky.analytic_sun = true;
+        frame.sky.sun_elevation_rad = sun_rad;
+        frame.weather.film_albedo = frame.weather.film_smoothness = film;
+        frame.weather.snow_amount = snow;
+        frame.look.snow_sparkle = 1.0f;
+        return metering_frame(frame, MeterOf::ExposureAndLight);
+    };
+    for (const float sun_rad : {0.5f, -0.3f}) {
+        for (const glm::vec2 weather : {glm::vec2(0.0f), glm::vec2(0.9f, 0.0f), glm::vec2(0.0f, 0.7f)}) {
+            Frame frame = frame_of(sun_rad, weather.x, weather.y);
+            ASSERT_TRUE(frame.settings.any_light);
+            const RenderResult any = renderer->render(frame);
+            frame.settings.any_light = false;
+            const RenderResult own = renderer->render(frame);
+            for (std::size_t k = 0; k < any.aovs.size(); ++k) {
+                ASSERT_EQ(any.aovs[k].pixels.size(), own.aovs[k].pixels.size());
+                for (std::size_t i = 0; i < any.aovs[k].pixels.size(); ++i)
+                    ASSERT_NEAR(any.aovs[k].pixels[i], own.aovs[k].pixels[i], 1e-3f * std::abs(own.aovs[k].pixels[i]) + 1e-6f)
+                        << any.aovs[k].name << " under a sun at " << sun_rad << ", film and snow " << weather.x << ' ' << weather.y;
+            }
+        }
+    }
+}
+
 TEST_F(MeterTest, WhatIsUnlitDoesNotMeterItself)
 {
     Scene scene = grey_floor();
