@@ -188,6 +188,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         moment.film_smoothness = 0.5f * c.w;
         moment.rain = 0.4f * a.x;
         moment.water_to_snow = a.y;
+        moment.melt_exp = b.w;
         WeatherLook look;
         look.snow_color = vec3(0.92f, 0.94f, 0.97f);
         look.snow_specular = splat3(0.02f);

@@ -134,7 +134,7 @@ Apart apart(const RenderResult& full, const RenderResult& cut)
 TEST_F(LampReachTest, NothingOfItIsSeenAndItNeverAddsLight)
 {
     renderer->load(hall(), {});
-    for (const float ev100 : {15.0f, 12.0f, 9.0f}) {
+    for (const float ev100 : {15.0f, 12.0f, 10.0f}) {
         Frame frame = in_the_hall(ev100);
         const RenderResult cut = renderer->render(frame);
         frame.settings.least_lux = kFaintestLux;

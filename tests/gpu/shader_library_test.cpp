@@ -452,7 +452,8 @@ TEST_F(ShaderPage, ExamplesGiveTheSameInBothLanguages)
     EXPECT_GT(count(0, [](const glm::vec4& r) { return r.w < 0.1f; }), kCount / 20);
     EXPECT_GT(count(1, [](const glm::vec4& r) { return r.y < 0.9999f; }), kCount / 20);
     EXPECT_EQ(count(1, [](const glm::vec4& r) { return r.y < 0.5f; }), 0);
-    EXPECT_GT(count(2, [](const glm::vec4& r) { return r.w > 0.9f && r.y > 0.8f; }), kCount / 20);
+    // .. what melts to no less than grey.
+    EXPECT_GT(count(2, [](const glm::vec4& r) { return r.w > 0.9f && r.y > 0.6f; }), kCount / 20);
     EXPECT_GT(count(2, [](const glm::vec4& r) { return r.w < 0.1f; }), kCount / 20);
 }
 
