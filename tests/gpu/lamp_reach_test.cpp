@@ -134,15 +134,21 @@ Apart apart(const RenderResult& full, const RenderResult& cut)
 TEST_F(LampReachTest, NothingOfItIsSeenAndItNeverAddsLight)
 {
     renderer->load(hall(), {});
-    for (const float ev100 : {15.0f, 12.0f, 10.0f}) {
-        Frame frame = in_the_hall(ev100);
-        const RenderResult cut = renderer->render(frame);
-        frame.settings.least_lux = kFaintestLux;
-        const RenderResult full = renderer->render(frame);
-        const Apart a = apart(full, cut);
-        EXPECT_LE(a.codes, 1) << ev100;
-        EXPECT_EQ(a.brighter, 0.0f) << ev100;
-        EXPECT_GT(a.exposed, 0.0f) << "it does end earlier, at " << ev100;
+    for (const float ev100 : {15.0f, 12.0f, 10.0f, 9.0f}) {
+        // Beside the light of the sky a half may be too coarse for what is left out: without it, it is not.
+        float ends_earlier = 0.0f;
+        for (const bool sky : {true, false}) {
+            Frame frame = in_the_hall(ev100);
+            frame.settings.image_based_light = sky;
+            const RenderResult cut = renderer->render(frame);
+            frame.settings.least_lux = kFaintestLux;
+            const RenderResult full = renderer->render(frame);
+            const Apart a = apart(full, cut);
+            EXPECT_LE(a.codes, 1) << ev100;
+            EXPECT_EQ(a.brighter, 0.0f) << ev100;
+            ends_earlier = std::max(ends_earlier, a.exposed);
+        }
+        EXPECT_GT(ends_earlier, 0.0f) << "it does end earlier, at " << ev100;
     }
 }
 
