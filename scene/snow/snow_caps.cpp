@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
 
-#include "base/portable_math.h"
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
 #include "scene/snow/detail/borders.h"
 #include "scene/snow/detail/settle.h"
 #include "scene/snow/detail/sheet.h"
+#include "scene/snow/detail/sky_seen.h"
 #include "scene/subdivide/subdivide.h"
 
 namespace petrichor::scene {
@@ -25,17 +24,10 @@ using glm::vec3;
 
 constexpr float kSteepest = 0.4f;     // y of the normals of what holds snow
 constexpr float kCoarse_m = 0.4f;     // how far apart the sky is looked at
-constexpr int kRays = 16;
-constexpr float kHidden = 0.1f;       // of the rays
-constexpr float kCone = 0.6f;         // cosine from the zenith of the farthest ray
-constexpr float kBuried_m = 0.06f;    // what stands so high over level ground hides nothing from the sky
-constexpr float kSkin_m = 0.002f;     // rays start so far over a surface
-constexpr float kRests_m = 0.02f;     // what lies so near the ground rests on it
-constexpr int kInto = 2;              // edges that snow goes on into what stands in it
+constexpr float kHidden = 0.1f;       // share of the sky that is none
 constexpr int kRounds = 3;            // of finer cuts where a shelter ends ..
 constexpr float kOtherSky = 0.2f;     // .. ends of an edge see so much more of the sky one than the other ..
 constexpr float kFineSky_m = 0.06f;   // .. and are so far apart
-constexpr float kLevel = 0.85f;       // a gutter still is
 constexpr float kCoarser = 1.41421356f;
 constexpr int kTries = 12;
 constexpr float kAlong = 5.0f;        // times finer across an edge than along it
@@ -156,118 +148,11 @@ Ground ground_of(const Scene& scene, const SnowCapOptions& options)
     return ground;
 }
 
-std::array<vec3, kRays> sky_rays()
+// What sees none of the sky, within houses and under eaves, has no cap.
+void leave_out_hidden(CutMesh& mesh, Keeper keeper)
 {
-    std::array<vec3, kRays> rays;
-    for (int k = 0; k < kRays; ++k) {
-        const double up = 1.0 - (1.0 - static_cast<double>(kCone)) * (k + 0.5) / kRays;
-        const double side = std::sqrt(1.0 - up * up);
-        const SinCos turn = portable_sin_cos(2.399963229728653 * k);
-        rays[static_cast<std::size_t>(k)] =
-            vec3(glm::dvec3(side * turn.cosine, up, side * turn.sine));
-    }
-    return rays;
-}
-
-// Ground goes on below what stands on it.
-bool inside_solid(const Tracer& tracer, const vec3& at)
-{
-    vec3 from = at + vec3(0.0f, kSkin_m, 0.0f);
-    RayHit up = tracer.nearest({from, vec3(0.0f, 1.0f, 0.0f)});
-    if (up.hit() && !up.back && up.distance_m < kRests_m) {  // on its own underside
-        from.y += up.distance_m + kSkin_m;
-        up = tracer.nearest({from, vec3(0.0f, 1.0f, 0.0f)});
-    }
-    if (!up.hit() || !up.back) return false;
-    if (!tracer.triangles().double_sided(up.triangle)) return true;
-    // What has two sides may be a leaf: one is not within it.
-    for (const vec3& way : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) {
-        const RayHit side = tracer.nearest({from + vec3(0.0f, std::min(kSkin_m, 0.5f * up.distance_m), 0.0f), way});
-        if (!side.hit() || !side.back) return false;
-    }
-    return true;
-}
-
-// What has been seen of the sky from a place, by its bits.
-struct PlaceHash {
-    std::size_t operator()(const vec3& p) const
-    {
-        std::size_t h = 0;
-        for (const float v : {p.x, p.y, p.z}) h = h * 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint32_t>(v + 0.0f);
-        return h ^ (h >> 29);
-    }
-};
-using Seen = std::unordered_map<vec3, float, PlaceHash>;
-
-// Share of the sky overhead that points see, into w of _WEATHER, but for those `seen` already. A corner is looked at a bit within
-// its triangle: it may lie in a wall.
-void look_up(CutMesh& mesh, const Tracer& tracer, Keeper keeper, Seen& seen)
-{
-    const auto rays = sky_rays();
-    const std::size_t points = mesh.normals.size();
-    std::vector<float> sum(points, 0.0f), count(points, 0.0f);
-    std::vector<bool> known(points, false), buried(points, false);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& p = mesh.primitives[i];
-        for (std::size_t v = 0; v < mesh.points[i].size(); ++v) {
-            const auto found = seen.find(p.positions[v]);
-            if (found == seen.end()) continue;
-            const std::uint32_t point = mesh.points[i][v];
-            known[point] = true;
-            sum[point] = found->second;
-            count[point] = 1.0f;
-        }
-    }
-    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-        const Primitive& p = mesh.primitives[i];
-        for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
-            const vec3 middle = (p.positions[p.indices[k]] + p.positions[p.indices[k + 1]] +
-                                 p.positions[p.indices[k + 2]]) / 3.0f;
-            const bool level = p.normals[p.indices[k]].y > kLevel;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::uint32_t v = p.indices[k + c];
-                const std::uint32_t point = mesh.points[i][v];
-                if (known[point] || count[point] >= 3.0f) continue;
-                const vec3 way = middle - p.positions[v];
-                const float length = glm::length(way);
-                const vec3 at = p.positions[v] + way * std::min(0.08f / std::max(length, 1.0e-6f), 0.9f);
-                if (inside_solid(tracer, at)) {
-                    buried[point] = true;
-                    continue;
-                }
-                const vec3 from = at + vec3(0.0f, level ? kBuried_m : 0.015f, 0.0f);
-                int open = 0;
-                for (const vec3& ray : rays) open += tracer.blocked({from, ray}) ? 0 : 1;
-                sum[point] += static_cast<float>(open) / kRays;
-                count[point] += 1.0f;
-            }
-        }
-    }
-    std::vector<float> sky(points, 0.0f);
-    for (std::size_t i = 0; i < points; ++i) {
-        sky[i] = sum[i] / std::max(count[i], 1.0f);
-        if (count[i] > 0.0f) buried[i] = false;
-    }
-    // Snow goes on into what stands in it.
-    for (int pass = 0; pass < kInto; ++pass) {
-        std::vector<float> most(sky);
-        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-            const Primitive& p = mesh.primitives[i];
-            for (std::size_t k = 0; k < p.indices.size(); ++k) {
-                const std::uint32_t a = mesh.points[i][p.indices[k]], b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
-                if (buried[a]) most[a] = std::max(most[a], sky[b]);
-                if (buried[b]) most[b] = std::max(most[b], sky[a]);
-            }
-        }
-        sky = std::move(most);
-    }
-    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-        Primitive& p = mesh.primitives[i];
-        for (std::size_t v = 0; v < mesh.points[i].size(); ++v) {
-            p.weather[v].w = sky[mesh.points[i][v]];
-            seen[p.positions[v]] = p.weather[v].w;
-        }
-        // What sees none of it, within houses and under eaves, has no cap.
         keeper.keep(mesh, i, [&](std::size_t k) {
             const auto see = [&](std::size_t c) { return p.weather[p.indices[k + c]].w; };
             return !(std::max({see(0), see(1), see(2)}) < kHidden);
@@ -532,8 +417,9 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         mesh = subdivide(ground.primitives, coarse);
     }
     leave_out_ledges(mesh, tracer, Keeper(ground));
-    Seen seen;
-    look_up(mesh, tracer, Keeper(ground), seen);
+    detail::SkySeen seen;
+    detail::look_up(mesh, tracer, seen);
+    leave_out_hidden(mesh, Keeper(ground));
     // Finer where a shelter ends: at the foot of what stands on large triangles.
     std::vector<std::vector<std::uint32_t>> first_cut = std::move(mesh.origins);
     for (int round = 0; round < kRounds; ++round) {
@@ -550,7 +436,8 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         if (finer.limited) break;
         mesh = std::move(finer);
         mesh.origins = composed(first_cut, std::move(mesh.origins));
-        look_up(mesh, tracer, Keeper(ground), seen);
+        detail::look_up(mesh, tracer, seen);
+        leave_out_hidden(mesh, Keeper(ground));
         first_cut = std::move(mesh.origins);
     }
     detail::Borders borders = detail::borders_of(mesh, tracer);
