@@ -76,7 +76,7 @@ gpu::Frame bench_frame(const scene::Scene& scene, const RenderBenchOptions& opti
     ScenarioCamera camera;
     camera.name = options.camera;
     const double aspect = static_cast<double>(size.width) / size.height;
-    frame.camera = camera_at(camera, scene, content_bounds(scene), aspect, 0.0);
+    frame.camera = camera_at(camera, scene, framing_of(scene), aspect, 0.0);
     bool has_sun = false;
     for (const scene::Light& light : scene.lights) {
         has_sun = has_sun || light.kind == scene::LightKind::Directional;

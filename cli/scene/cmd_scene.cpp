@@ -127,7 +127,7 @@ void run(SceneOptions options)
         camera.name = options.camera;
         const Pixels pixels = draw_scene_map(
             view, find_map(options.map), options.conditions,
-            camera_at(camera, *view.scene, content_bounds(*view.scene),
+            camera_at(camera, *view.scene, framing_of(*view.scene),
                       static_cast<double>(size.width) / size.height, 0.0),
             picture);
         texproc::write_png8(options.output, pixels.width, pixels.height, 3, pixels.rgb,

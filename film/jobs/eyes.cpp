@@ -28,7 +28,7 @@ std::vector<glm::vec3> eyes_of(const Sequence& sequence)
     for (const ScenarioView& view : views) {
         for (int i = 0; i < moments; ++i) {
             const int frame = moments > 1 ? static_cast<int>(static_cast<long>(last) * i / (moments - 1)) : 0;
-            scene::Camera camera = camera_at(view.camera, sequence.scene, sequence.bounds, aspect,
+            scene::Camera camera = camera_at(view.camera, sequence.scene, sequence.framing, aspect,
                                              frame_time_s(sequence, frame));
             if (sequence.scene.rig) {
                 const double at_s = s.scene.animation_start_s +

@@ -39,7 +39,7 @@ void open_shutter(gpu::Frame& frame, const Sequence& sequence, const ScenarioCam
         gpu::ShutterMoment moment;
         moment.off_s = i == 0 ? 0.0 : (u - std::floor(u) - 0.5) * open_s;
         moment.animation_s = frame.animation_s;
-        moment.camera = camera_at(camera, sequence.scene, sequence.bounds, aspect,
+        moment.camera = camera_at(camera, sequence.scene, sequence.framing, aspect,
                                   time_s + moment.off_s * clock);
         if (sequence.scene.rig) {
             moment.animation_s += scenario.scene.animation_speed * moment.off_s;

@@ -119,10 +119,10 @@ void load_sequence_scene(Sequence& sequence, int threads)
                     "Export meshes with triangles, placed in the default scene.");
     }
     const std::string shapes = add_shapes(scenario.shapes, scenario.materials, loaded.scene);
-    sequence.bounds = content_bounds(loaded.scene);
-    const bool ground = wants_ground(scenario, loaded.scene, sequence.bounds);
-    if (ground) add_ground(loaded.scene, sequence.bounds);
-    say_odd_size(scenario, sequence.bounds, ground, loaded.scene.warnings);
+    sequence.framing = framing_of(loaded.scene);
+    const bool ground = wants_ground(scenario, loaded.scene, sequence.framing.bounds);
+    if (ground) add_ground(loaded.scene, sequence.framing.bounds);
+    say_odd_size(scenario, sequence.framing.bounds, ground, loaded.scene.warnings);
     sequence.scene = std::move(loaded.scene);
     sequence.notes = std::move(loaded.notes);
     const auto unnamed = apply_node_overrides(scenario.nodes, sequence.scene);
@@ -133,7 +133,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
                                    applied.unmatched.end());
     set_films_by_name(sequence.scene);
-    const glm::vec3 size = sequence.bounds.high - sequence.bounds.low;
+    const glm::vec3 size = sequence.framing.bounds.high - sequence.framing.bounds.low;
     set_beads(sequence.scene, std::max({size.x, size.y, size.z}));
     check_decals(sequence.scene);
     check_shapes(sequence.scene);

@@ -334,7 +334,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
 
     gpu::Frame& out = result.frame;
     const double aspect = static_cast<double>(scenario.output.width) / scenario.output.height;
-    out.camera = camera_at(camera, sequence.scene, sequence.bounds, aspect, time_s);
+    out.camera = camera_at(camera, sequence.scene, sequence.framing, aspect, time_s);
     std::optional<scene::Posture> posture;
     if (sequence.scene.rig) {
         out.animation_s = scenario.scene.animation_start_s +

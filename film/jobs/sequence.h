@@ -8,6 +8,7 @@
 
 #include "film/frames/frames_jsonl.h"
 #include "film/jobs/air_travel.h"
+#include "film/jobs/camera.h"
 #include "film/jobs/weather_source.h"
 #include "film/scenario/scenario.h"
 #include "gpu/renderer.h"
@@ -49,7 +50,7 @@ struct Sequence {
     std::vector<SequenceVariant> variants;  ///< at least one
     std::vector<ScenarioView> views;        ///< at least one
     scene::Scene scene;                     ///< as loaded; the pixels may be gone
-    scene::Bounds bounds;                   ///< of the scene's content, for framing
+    Framing framing;                        ///< of the scene as loaded, without its outskirts
     double duration_s = 0.0;      ///< frame 0 to one after the last, on the scenario's clock
     std::string content;          ///< fingerprint of the scene's files
     std::string lighting_models;  ///< of the scene's own ones, own_models_fingerprint()

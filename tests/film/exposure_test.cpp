@@ -13,7 +13,7 @@ namespace {
 Sequence sequence_of(const std::string& text)
 {
     Sequence sequence = make_sequence(parse_scenario(text, "s.toml"));
-    sequence.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    sequence.framing.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
     sequence.content = "content";
     return sequence;
 }

@@ -141,7 +141,7 @@ TEST(NorthDegrees, TurnsSunAndWind)
     const auto frame_of = [](const std::string& north) {
         Sequence sequence = make_sequence(parse_scenario(
             "[scene]\nnorth_degrees = " + north + "\n[sun]\nazimuth_degrees = 180\n", "s.toml"));
-        sequence.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+        sequence.framing.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
         sequence.variants[0].weather.at = [](double) {
             weather::Moment moment;
             moment.values.wind_m_s = weather::wind_vector_m_s(2.0, 0.0);  // from the north

@@ -98,7 +98,7 @@ TEST(NightSky, ReachesTheFrame)
     Sequence sequence = make_sequence(parse_scenario(
         "[scene]\nnorth_degrees = 90\n[moon]\nelevation_degrees = 20\nazimuth_degrees = 100\n",
         "s.toml"));
-    sequence.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    sequence.framing.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
     const gpu::Sky sky = frame_at(sequence, {0}).frame.sky;
     EXPECT_NEAR(sky.moon_elevation_rad, 20.0f * 0.0174533f, 1e-5f);
     EXPECT_NEAR(sky.moon_azimuth_rad, 190.0f * 0.0174533f, 1e-5f);

@@ -39,7 +39,7 @@ TEST(Size, AcceptsWhatCanBeRendered)
 Sequence sequence_of(const std::string& text)
 {
     Sequence sequence = make_sequence(parse_scenario(text, "s.toml"));
-    sequence.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    sequence.framing.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
     sequence.duration_s = 48.0;
     sequence.variants[0].weather.at = [](double time_s) {
         weather::Moment moment;
@@ -154,7 +154,7 @@ TEST(FramingCamera, SeesAllOfTheBounds)
 {
     for (const double aspect : {0.5, 1.0, 16.0 / 9.0}) {
         const scene::Bounds bounds{{-3.0f, 0.0f, -1.0f}, {5.0f, 2.0f, 9.0f}};
-        const scene::Camera camera = framing_camera(bounds, aspect);
+        const scene::Camera camera = framing_camera({bounds, {}}, aspect);
         const glm::mat4 view = glm::inverse(camera.to_world);
         const float tan_y = std::tan(0.5f * camera.vertical_fov_rad);
         float widest = 0.0f;
@@ -175,7 +175,7 @@ TEST(FramingCamera, OfALandHasTheHorizonInThePictureAndOfAThingNot)
 {
     // Height of the horizon over the middle of the picture, as a share of the way to its edge.
     const auto horizon = [](const scene::Bounds& bounds) {
-        const scene::Camera camera = framing_camera(bounds, 16.0 / 9.0);
+        const scene::Camera camera = framing_camera({bounds, {}}, 16.0 / 9.0);
         const glm::vec3 back(camera.to_world[2]);
         return back.y / std::hypot(back.x, back.z) / std::tan(0.5f * camera.vertical_fov_rad);
     };
@@ -183,6 +183,41 @@ TEST(FramingCamera, OfALandHasTheHorizonInThePictureAndOfAThingNot)
     EXPECT_GT(horizon({{-1.5f, 0, -1.0f}, {1.5f, 0.1f, 1.0f}}), 1.0f) << "a table is no land";
     EXPECT_GT(horizon({{-50, 0, -40}, {50, 90, 40}}), 1.0f) << "nor a tower";
     EXPECT_GT(horizon({}), 1.0f);
+}
+
+TEST(FramingCamera, OfALandStandsAmongWhatIsThere)
+{
+    // A village of 60 m, at one side of a plain with a few posts.
+    Framing framing{{{-200, 0, -150}, {200, 12, 150}}, {}};
+    for (int i = 0; i < 900; ++i) {
+        framing.points.emplace_back(70.0f + static_cast<float>(i % 30) * 2.0f, static_cast<float>(i % 7),
+                                    -30.0f + static_cast<float>(i / 30) * 2.0f);
+    }
+    for (int i = 0; i < 100; ++i) {
+        framing.points.emplace_back(-200.0f + 4.0f * static_cast<float>(i), 0.0f, i % 2 ? -150.0f : 150.0f);
+    }
+    const auto shown = [&](const scene::Camera& camera) {
+        const glm::mat4 view = glm::inverse(camera.to_world);
+        const float tan_y = std::tan(0.5f * camera.vertical_fov_rad);
+        std::size_t seen = 0;
+        for (const glm::vec3& point : framing.points) {
+            const glm::vec4 p = view * glm::vec4(point, 1.0f);
+            seen += p.z < 0.0f && std::abs(p.y) < -p.z * tan_y && std::abs(p.x) < -p.z * tan_y * 16.0f / 9.0f;
+        }
+        return static_cast<double>(seen) / static_cast<double>(framing.points.size());
+    };
+    const scene::Camera camera = framing_camera(framing, 16.0 / 9.0);
+    EXPECT_GT(shown(camera), 0.7);
+    const float near_m = glm::distance(glm::vec3(camera.to_world[3]), {100.0f, 3.0f, 0.0f});
+    EXPECT_LT(near_m, 140.0f);
+    const scene::Camera all = framing_camera({framing.bounds, {}}, 16.0 / 9.0);
+    EXPECT_GT(glm::distance(glm::vec3(all.to_world[3]), {0.0f, 6.0f, 0.0f}), 300.0f);
+
+    // A tower in the camera's place: it stands back.
+    const glm::vec3 eye(camera.to_world[3]);
+    for (int i = 0; i < 40; ++i) framing.points.emplace_back(eye.x + 1.0f, static_cast<float>(i), eye.z + 1.0f);
+    const glm::vec3 back(framing_camera(framing, 16.0 / 9.0).to_world[3]);
+    EXPECT_GT(std::hypot(back.x - eye.x, back.z - eye.z), 5.0f);
 }
 
 TEST(ContentBounds, ALargeGroundDoesNotHideTheTown)
