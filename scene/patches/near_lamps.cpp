@@ -30,6 +30,7 @@ std::vector<std::uint8_t> trace_near_lamp(const NearLinks& near, const Tracer& t
             const glm::vec3 n = near.normal[s];
             const glm::vec3 way = position_m - near.points[s * NearLinks::kSamples];
             if (!(std::sqrt(glm::dot(way, way)) < range_m + 2.0f * regular_m)) continue;
+            Tracer::Blocker blocker;
             for (std::size_t k = 0; k < NearLinks::kSamples; ++k) {
                 const glm::vec3 x = near.points[s * NearLinks::kSamples + k];
                 const glm::vec3 from = x + n * ray_lift_m(x, regular_m);
@@ -38,7 +39,7 @@ std::vector<std::uint8_t> trace_near_lamp(const NearLinks& near, const Tracer& t
                 if (!(glm::dot(d, n) > 0.0f)) continue;
                 const bool blocked =
                     length > kLanternRadius_m &&
-                    tracer.blocked({from, d / length, length - kLanternRadius_m});
+                    tracer.blocked({from, d / length, length - kLanternRadius_m}, &blocker);
                 if (!blocked) reached[s] = static_cast<std::uint8_t>(reached[s] | 1u << k);
             }
         }

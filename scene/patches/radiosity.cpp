@@ -211,6 +211,7 @@ GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
                  glm::dot(way, patches.normal[j]) > 0.7f * std::sqrt(far2)))
                 continue;
             float sum = 0.0f;
+            Tracer::Blocker last;
             for (std::size_t k = 0; k < kPairs; ++k) {
                 const SamplePoint from = sample_of(patches, triangles, i, 4 * k + 1);
                 const SamplePoint to = sample_of(patches, triangles, j, 4 * k + 3);
@@ -224,7 +225,7 @@ GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
                 if (kernel < kLeastFactor) continue;
                 if (tracer.blocked_between(
                         from.position_m + from.normal * ray_lift_m(from.position_m, regular),
-                        to.position_m + to.normal * ray_lift_m(to.position_m, regular)))
+                        to.position_m + to.normal * ray_lift_m(to.position_m, regular), 1e-4f, &last))
                     continue;
                 sum += kernel;
             }
@@ -264,6 +265,7 @@ std::vector<std::uint8_t> trace_lamp(const Patches& patches, const Tracer& trace
         const float size = patches.level_cell_m(level_of(patches.key[i]));
         if (!(std::sqrt(glm::dot(way, way)) < range_m + size)) return;
         int seen = 0;
+        Tracer::Blocker last;
         for (std::size_t k = 0; k < kPairs; ++k) {
             const SamplePoint from = sample_of(patches, triangles, i, 4 * k);
             const glm::vec3 origin =
@@ -272,7 +274,7 @@ std::vector<std::uint8_t> trace_lamp(const Patches& patches, const Tracer& trace
             const float length = std::sqrt(glm::dot(d, d));
             if (!(glm::dot(d, from.normal) > 0.0f)) continue;
             const bool blocked = length > kLanternRadius_m &&
-                                 tracer.blocked({origin, d / length, length - kLanternRadius_m});
+                                 tracer.blocked({origin, d / length, length - kLanternRadius_m}, &last);
             seen += blocked ? 0 : 1;
         }
         reached[i] = static_cast<std::uint8_t>(seen * 255 / kPairs);

@@ -38,10 +38,15 @@ public:
 
     /// The nearest triangle, from both sides.
     RayHit nearest(const Ray& ray) const;
-    /// Whether anything lies on the ray.
-    bool blocked(const Ray& ray) const;
+    /// What a ray met last: the next one is asked to meet that first.
+    struct Blocker {
+        std::uint32_t packet = RayHit::kNothing;
+    };
+
+    /// Whether anything lies on the ray. Rays that follow each other and share a `last` cost less, and answer the same.
+    bool blocked(const Ray& ray, Blocker* last = nullptr) const;
     /// Whether anything lies between two points, `margin_m` before each left out.
-    bool blocked_between(glm::vec3 from, glm::vec3 to, float margin_m = 1e-4f) const;
+    bool blocked_between(glm::vec3 from, glm::vec3 to, float margin_m = 1e-4f, Blocker* last = nullptr) const;
 
     /// Triangles whose boxes meet a box, by number.
     std::vector<std::uint32_t> within(glm::vec3 low, glm::vec3 high) const;
@@ -61,7 +66,7 @@ private:
         std::uint32_t triangle[4];
     };
     template <bool kAny>
-    RayHit trace(const Ray& ray) const;
+    RayHit trace(const Ray& ray, Blocker* last) const;
     struct Builder;
 
     const Triangles* triangles_ = nullptr;

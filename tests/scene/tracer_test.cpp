@@ -55,6 +55,7 @@ TEST(Tracer, FindsWhatTryingAllTrianglesFinds)
     const Triangles triangles(scene, {});
     const Tracer tracer(triangles);
     int hits = 0, different = 0;
+    Tracer::Blocker last;
     for (std::uint64_t i = 0; i < 4000; ++i) {
         const auto u = [&](std::uint64_t k) { return unit_float(mixed(i, 100 + k)); };
         const Ray ray{glm::vec3(12 * u(0) - 6, 12 * u(1) - 6, 12 * u(2) - 6),
@@ -63,6 +64,7 @@ TEST(Tracer, FindsWhatTryingAllTrianglesFinds)
                       i % 3 == 0 ? 4.0f : std::numeric_limits<float>::max()};
         const RayHit found = tracer.nearest(ray), known = by_hand(triangles, ray);
         hits += known.hit() ? 1 : 0;
+        ASSERT_EQ(tracer.blocked(ray, &last), found.hit()) << "whatever the ray before met";
         // An edge that rounding decides.
         if (found.triangle != known.triangle) {
             ++different;

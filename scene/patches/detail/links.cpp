@@ -216,9 +216,10 @@ void connect(Patches& patches, const Tracer& tracer, const PatchOptions& options
             std::array<glm::vec3, kSegments> to;
             points_near(patches, triangles, node, level, middle, lift, to);
             int seen = 0;
+            Tracer::Blocker last;
             for (std::size_t k = 0; k < kSegments; ++k) {
                 const SamplePoint p = point_of(patches, triangles, patch, 4 * k + 2);
-                seen += tracer.blocked_between(p.position_m + p.normal * lift, to[k]) ? 0 : 1;
+                seen += tracer.blocked_between(p.position_m + p.normal * lift, to[k], 1e-4f, &last) ? 0 : 1;
                 if (seen == 2) break;
             }
             if (seen >= 2) bits |= 1u << n;
@@ -248,10 +249,11 @@ void trace_visibility(Patches& patches, const Tracer& tracer, const PatchOptions
             points[k].position_m +=
                 points[k].normal * ray_lift_m(points[k].position_m, regular);
         }
+        Tracer::Blocker last;
         for (std::size_t bit = 0; bit < kBits; ++bit) {
             const SamplePoint& from = points[which[bit] % kPatchSamples];
             if (!(glm::dot(from.normal, directions[bit]) > 0.0f)) continue;
-            if (tracer.blocked({from.position_m, directions[bit]})) continue;
+            if (tracer.blocked({from.position_m, directions[bit]}, &last)) continue;
             patches.visible[patch][bit >> 5] |= 1u << (bit & 31);
         }
     });

@@ -187,8 +187,14 @@ NearChooser::NearChooser(const Patches& patches, const Tracer& tracer, const Nea
     const glm::vec3 d = triangles_.high() - triangles_.low();
     // No further than what counts as closed (Patches::open).
     reach_ = std::min({patches.level_cell_m(1), 0.03f * std::sqrt(glm::dot(d, d)), 0.5f});
-    for (int r = 0; r < kSightDirections; ++r)
-        directions_.push_back(row_direction({0.0f, 0.0f, 1.0f}, r, kSightDirections, patches.seed));
+    for (int r = 0; r < kSightDirections; r += 4) {
+        float lanes[3][4];
+        for (int lane = 0; lane < 4; ++lane) {
+            const glm::vec3 local = row_direction({0.0f, 0.0f, 1.0f}, r + lane, kSightDirections, patches.seed);
+            for (int k = 0; k < 3; ++k) lanes[k][lane] = local[k];
+        }
+        directions_.push_back(four3(lanes));
+    }
 }
 
 NearChooser::Surroundings NearChooser::surroundings(std::uint32_t patch, std::span<const SamplePoint> receivers) const
@@ -408,15 +414,17 @@ std::vector<NearChooser::Look> NearChooser::looks(const SamplePoint& p, const Ne
     const auto count = static_cast<std::size_t>(polygon.count);
     for (std::size_t k = 0; k < count; ++k)
         inwards[k] = glm::cross(n, polygon.corner[(k + 1) % count] - polygon.corner[k]);
-    for (const glm::vec3& local : directions_) {
-        const glm::vec3 d = t * local.x + b * local.y + p.normal * local.z;
-        const float falls = glm::dot(d, n);
-        if (!(falls < 0.0f)) continue;
-        const glm::vec3 x = p.position_m + d * (first / falls);
-        bool within = true;
-        for (std::size_t k = 0; k < count && within; ++k)
-            within = glm::dot(inwards[k], x - polygon.corner[k]) >= 0.0f;
-        if (within) looks.push_back({x, 1.0f});
+    const Four3 from = all3(p.position_m), front = all3(n), up = all3(p.normal), along = all3(t), across = all3(b);
+    for (const Four3& local : directions_) {
+        const Four3 d = along * local.x + across * local.y + up * local.z;
+        const Four falls = dot(d, front);
+        Signs within = falls < all(0.0f);
+        const Four3 x = from + d * (all(first) / falls);
+        for (std::size_t k = 0; k < count; ++k)
+            within &= dot(all3(inwards[k]), x - all3(polygon.corner[k])) >= all(0.0f);
+        if (none(within)) continue;
+        for (int lane = 0; lane < 4; ++lane)
+            if (within[lane] != 0) looks.push_back({{x.x[lane], x.y[lane], x.z[lane]}, 1.0f});
     }
     if (looks.size() >= rays) {
         for (std::size_t r = 0; r < rays; ++r) looks[r] = looks[r * looks.size() / rays];
@@ -425,9 +433,9 @@ std::vector<NearChooser::Look> NearChooser::looks(const SamplePoint& p, const Ne
     }
     looks.clear();
     const auto corners = corners_of(polygon);
-    const glm::vec3 across = corners[2] - corners[0], middle = point_in(corners, 0.5f, 0.5f);
+    const glm::vec3 diagonal = corners[2] - corners[0], middle = point_in(corners, 0.5f, 0.5f);
     const float area = area_m2(polygon), least2 = area / std::numbers::pi_v<float>;
-    const bool strip = area < kStripWidth * glm::dot(across, across);
+    const bool strip = area < kStripWidth * glm::dot(diagonal, diagonal);
     for (std::size_t r = 0; r < rays; ++r) {
         const std::uint64_t at = mixed(hash, r);
         // Off the edge, where two bodies touch.
@@ -458,6 +466,7 @@ float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon&
     std::stable_sort(order.begin(), order.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
     if (order.size() > kSightPoints) order.resize(kSightPoints);
     float all = 0.0f, seen = 0.0f;
+    Tracer::Blocker last;
     for (const auto& [factor, k] : order) {
         const SamplePoint& p = around.points[k];
         const glm::vec3 from = p.position_m + p.normal * ray_lift_m(p.position_m, regular);
@@ -469,7 +478,7 @@ float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon&
                 continue;
             const glm::vec3 way = look.to - p.position_m;
             const float lift_m = std::min(ray_lift_m(look.to, regular), 0.2f * std::sqrt(glm::dot(way, way)));
-            if (!tracer_.blocked_between(from, look.to + n * lift_m)) arrived += look.weight;
+            if (!tracer_.blocked_between(from, look.to + n * lift_m, 1e-4f, &last)) arrived += look.weight;
         }
         if (!(brought > 0.0f)) continue;
         all += factor * factor;

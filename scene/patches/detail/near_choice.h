@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "scene/patches/detail/four.h"
 #include "scene/patches/detail/near_faces.h"
 #include "scene/patches/detail/near_sources.h"
 #include "scene/patches/near_light.h"
@@ -78,7 +79,7 @@ private:
     const NearSources& sources_;
     std::span<const NearHint> hints_;
     float reach_ = 0.0f;
-    std::vector<glm::vec3> directions_;  // even, about z
+    std::vector<Four3> directions_;  // even, about z
 };
 
 inline constexpr std::size_t kNearPatchesAJob = 64;

@@ -137,13 +137,14 @@ void NearSources::trace_sky(NearSource& source, std::span<const glm::vec3> point
 {
     const glm::vec3 n = front_of(source.corners);
     bool any = up, all = true;
+    Tracer::Blocker last;
     const auto look = [&](std::size_t bit, bool known) {
         const glm::vec3 raw = shared::visibility_raw_direction(static_cast<int>(bit));
         const glm::vec3 d = raw / std::sqrt(glm::dot(raw, raw));
         if (!(glm::dot(n, d) > 0.0f)) return;
         if (!known) {
             const glm::vec3 x = points[mixed(hash, bit) % points.size()];
-            if (tracer_.blocked({x + n * ray_lift_m(x, patches_.level_cell_m(1)), d})) {
+            if (tracer_.blocked({x + n * ray_lift_m(x, patches_.level_cell_m(1)), d}, &last)) {
                 all = false;
                 return;
             }
