@@ -171,6 +171,11 @@ void add_bench(CLI::App& app)
                                                     {"visibility", gpu::SurfacePath::Visibility}}));
     command->add_flag("--relight", o->relight,
                       "solve the light between surfaces in each timed frame, and say what that takes");
+    command
+        ->add_flag("--film", o->film,
+                   "as in a film: before each timed frame the next one is drawn, untimed, so that what "
+                   "changes between them (sun, clouds, snow) is made anew; nothing is metered")
+        ->excludes(scene);
     command->add_flag("--shadows", o->shadows, "with shadows of the sun")->needs(scene);
     command->add_flag("--ao", o->ambient_occlusion, "with ambient occlusion")->needs(scene);
     command->add_flag("--ibl", o->image_based_light, "with light from the sky")->needs(scene);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "film/jobs/camera.h"
 #include "film/jobs/exposure.h"
 #include "film/jobs/render_job.h"
+#include "film/jobs/scene_places.h"
 #include "film/jobs/scene_source.h"
 #include "film/jobs/sequence.h"
 #include "film/scenario/material_keys.h"
@@ -204,6 +206,7 @@ namespace {
 struct Workload {
     gpu::Renderer renderer;
     gpu::Frame frame;
+    std::optional<gpu::Frame> other = {};  // drawn before it each time
 };
 
 Workload plain_workload(const RenderBenchOptions& options)
@@ -238,24 +241,41 @@ Workload scenario_workload(const RenderBenchOptions& options)
     load_sequence_scene(sequence, options.threads);
     for (const std::string& warning : sequence.scene.warnings)
         std::cerr << "warn scene: " << warning << "\n";
+    const int next = options.frame + 1 < sequence.scenario.output.frames ? options.frame + 1 : options.frame - 1;
+    if (options.film && next < 0)
+        throw Error("bench: --film needs a scenario of two frames, got one", "Set [output] frames.");
     RenderRequest request;
     request.device = options.device;
     request.threads = options.threads;
     request.passes_apart = options.apart;
+    request.range = {options.frame, options.frame};
+    if (options.film) request.range = {std::min(options.frame, next), std::max(options.frame, next)};
     RenderReport report;
+    ScenePlaces places(sequence, request.threads, {}, {}, report.notes);
     Job job{options.frame, options.variant, options.view};
     // The first of those there are, where none is named.
     if (job.variant.empty()) job.variant = sequence.variants.front().name;
     if (job.view.empty()) job.view = sequence.views.front().name;
-    SequenceFrame frame = frame_at(sequence, job);
-    if (options.surface_path != gpu::SurfacePath::Auto) {
-        frame.frame.settings.surface_path = options.surface_path;
-    }
-    gpu::Renderer renderer = sequence_renderer(sequence, request, report);
-    set_environment_of(renderer, sequence, job);
+    const auto frame_of = [&](const Job& which) {
+        SequenceFrame frame = frame_at(sequence, which);
+        FrameFacts facts;
+        places.place(sequence, which, frame, facts);
+        if (options.surface_path != gpu::SurfacePath::Auto) frame.frame.settings.surface_path = options.surface_path;
+        return std::move(frame.frame);
+    };
+    gpu::Frame frame = frame_of(job);
+    Workload work{sequence_renderer(sequence, request, report), std::move(frame)};
+    set_environment_of(work.renderer, sequence, job);
     // As `render` exposes it: how far lamps reach depends on it.
-    Meter(sequence).expose(renderer, job, frame.frame);
-    return {std::move(renderer), std::move(frame.frame)};
+    Meter meter(sequence);
+    if (options.film) {
+        Job other = job;
+        other.frame = next;
+        work.other = frame_of(other);
+        meter.expose(work.renderer, other, *work.other);
+    }
+    meter.expose(work.renderer, job, work.frame);
+    return work;
 }
 
 }  // namespace
@@ -274,6 +294,7 @@ void run_render_bench(const RenderBenchOptions& options)
     for (int i = 0; i < options.repeat; ++i) {
         // Another light for the solver, the same for the eye.
         if (options.relight) work.frame.emissive_scale += 1e-6f;
+        if (work.other) work.renderer.render(*work.other);
         costs.push_back(timed_render(work.renderer, work.frame, result));
     }
     if (!options.picture.empty()) {

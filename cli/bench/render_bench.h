@@ -23,6 +23,7 @@ struct RenderBenchOptions {
     bool apart = false;  ///< waits for each pass and tells its CPU time
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
     bool relight = false;  ///< the light between surfaces is solved in each frame
+    bool film = false;     ///< each timed frame follows another one, untimed, and pays for what is not the same
     bool shadows = false;
     bool ambient_occlusion = false;
     bool image_based_light = false;

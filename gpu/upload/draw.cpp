@@ -163,6 +163,15 @@ void bind_geometry(VkCommandBuffer commands, const GpuScene& scene)
     vkCmdBindIndexBuffer(commands, scene.indices().buffer.get(), 0, VK_INDEX_TYPE_UINT32);
 }
 
+void VertexBinder::bind(bool positions)
+{
+    if (positions == positions_) return;
+    positions_ = positions;
+    const VkBuffer buffer = (positions ? scene_->positions() : scene_->vertices()).buffer.get();
+    const VkDeviceSize offset = 0;
+    vkCmdBindVertexBuffers(commands_, 0, 1, &buffer, &offset);
+}
+
 void set_facing(VkCommandBuffer commands, VkCullModeFlags cull, bool mirrored)
 {
     vkCmdSetCullMode(commands, cull);

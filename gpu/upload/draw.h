@@ -45,6 +45,18 @@ std::vector<DrawRun> visible_runs(const GpuScene& scene, const glm::mat4& world_
 void sort_draws(std::vector<Draw>& draws, const std::vector<GpuMaterial>& materials);
 
 void bind_geometry(VkCommandBuffer commands, const GpuScene& scene);
+
+/// Binds the vertices that a draw reads, whole ones or their positions alone, where others are bound.
+class VertexBinder {
+public:
+    VertexBinder(VkCommandBuffer commands, const GpuScene& scene) : commands_(commands), scene_(&scene) {}
+    void bind(bool positions);
+
+private:
+    VkCommandBuffer commands_;
+    const GpuScene* scene_;
+    bool positions_ = false;  // bind_geometry() binds whole ones
+};
 void set_facing(VkCommandBuffer commands, VkCullModeFlags cull, bool mirrored);
 
 }  // namespace petrichor::gpu

@@ -45,6 +45,11 @@ const std::vector<VertexAttribute>& vertex_attributes()
     return attributes;
 }
 
+VertexAttribute position_attribute()
+{
+    return {0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+}
+
 GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures,
                    const Overlay& overlay)
     : arena_(device),
@@ -259,8 +264,26 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
          .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | texel_usage,
          .texel_format = as_texels_ ? VK_FORMAT_R32_UINT : VK_FORMAT_UNDEFINED,
          .host = on_cpu});
-    upload_buffer(device, *vertices_, std::as_bytes(std::span(vertices)));
+    positions_ = arena_.buffer({.name = "scene_positions",
+                                .size = vertices.size() * sizeof(glm::vec3),
+                                .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                .host = on_cpu});
+    upload_vertices(device, vertices, 0);
     upload_buffer(device, *indices_, std::as_bytes(std::span(indices)));
+}
+
+void GpuScene::upload_vertices(const Device& device, std::span<const Vertex> vertices, std::size_t first)
+{
+    upload_buffer(device, *vertices_, std::as_bytes(vertices), first * sizeof(Vertex));
+    if (positions_->mapped) {
+        auto* to = reinterpret_cast<glm::vec3*>(positions_->mapped) + first;
+        for (const Vertex& v : vertices) *to++ = v.position;
+        return;
+    }
+    std::vector<glm::vec3> positions;
+    positions.reserve(vertices.size());
+    for (const Vertex& v : vertices) positions.push_back(v.position);
+    upload_buffer(device, *positions_, std::as_bytes(std::span(positions)), first * sizeof(glm::vec3));
 }
 
 // Instances that look alike share a row; row 0 is nobody's.
@@ -317,8 +340,7 @@ void GpuScene::lay(const Device& device, std::span<const Vertex> overlay, std::s
     for (Draw& draw : draws_) {
         if (draw.overlay) draw.index_count = overlaid_ ? overlay_counts_[next++] : 0;
     }
-    if (overlaid_)
-        upload_buffer(device, *vertices_, std::as_bytes(overlay), first_overlay_ * sizeof(Vertex));
+    if (overlaid_) upload_vertices(device, overlay, first_overlay_);
 }
 
 void GpuScene::upload_textures(const Device& device, const std::vector<Texture>& textures)

@@ -20,6 +20,8 @@
 namespace petrichor::gpu {
 
 const std::vector<VertexAttribute>& vertex_attributes();
+/// Of the buffer of positions alone.
+VertexAttribute position_attribute();
 
 /// One primitive of one instance.
 struct Draw {
@@ -142,6 +144,8 @@ public:
     std::uint64_t poses() const { return poses_; }
 
     const GpuBuffer& vertices() const { return *vertices_; }
+    /// Of all vertices, by themselves: what asks for no more reads a fifth of the memory.
+    const GpuBuffer& positions() const { return *positions_; }
     const GpuBuffer& indices() const { return *indices_; }
     /// Both buffers can be bound as texels: RGBA32UI, four a vertex, and R32UI.
     bool as_texels() const { return as_texels_; }
@@ -176,6 +180,7 @@ private:
     bool pose_rig(double time_s);
     bool bend(const scene::Wind& wind, bool moved);
     void upload_geometry(const Device& device, const Scene& scene, const Overlay& overlay);
+    void upload_vertices(const Device& device, std::span<const Vertex> vertices, std::size_t first);
     void upload_textures(const Device& device, const std::vector<Texture>& textures);
     void make_materials(const Device& device, const Scene& scene);
     void set_material(std::size_t index, const Material& source);
@@ -186,6 +191,7 @@ private:
 
     MemoryArena arena_;
     std::unique_ptr<GpuBuffer> vertices_;
+    std::unique_ptr<GpuBuffer> positions_;
     std::unique_ptr<GpuBuffer> indices_;
     std::unique_ptr<GpuBuffer> constants_;
     std::unique_ptr<GpuBuffer> looks_;

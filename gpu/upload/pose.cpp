@@ -89,8 +89,7 @@ bool GpuScene::pose(const Device& device, double time_s, const scene::Wind& wind
     const bool bent = bend(wind, posed);
     if (!posed && !bent) return false;
     ++poses_;
-    upload_buffer(device, *vertices_, std::as_bytes(std::span(bending_)),
-                  first_bending_ * sizeof(Vertex));
+    upload_vertices(device, bending_, first_bending_);
     return true;
 }
 

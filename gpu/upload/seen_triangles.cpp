@@ -84,7 +84,7 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
     seen->ranges.resize(scene.draws().size());
     seen->indices = indices_.get();
     seen->numbers = numbers_.get();
-    const auto* vertices = reinterpret_cast<const Vertex*>(scene.vertices().mapped);
+    const auto* positions = reinterpret_cast<const glm::vec3*>(scene.positions().mapped);
     const auto* indices = reinterpret_cast<const std::uint32_t*>(scene.indices().mapped);
     auto* out_indices = reinterpret_cast<std::uint32_t*>(indices_->mapped);
     auto* out_numbers = reinterpret_cast<std::uint32_t*>(numbers_->mapped);
@@ -107,9 +107,9 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
 
         const AskedPart asked = asked_of(view.asked, view.clip_from_world, draw->centre_m, draw->radius_m).value_or(view.asked);
         corners_.resize(draw->vertex_count);
-        const Vertex* own = vertices + draw->vertex_offset + draw->first_vertex;
+        const glm::vec3* own = positions + draw->vertex_offset + draw->first_vertex;
         for (std::uint32_t v = 0; v < draw->vertex_count; ++v) {
-            const glm::vec4 clip = clip_from_mesh * glm::vec4(own[v].position, 1.0f);
+            const glm::vec4 clip = clip_from_mesh * glm::vec4(own[v], 1.0f);
             Corner& corner = corners_[v];
             if (!(clip.w > 1.0e-6f)) {
                 corner = {0.0f, 0.0f, 0.0f, 0u};

@@ -456,5 +456,25 @@ TEST_F(Render, BenchTellsTheCpuTimeOfEachPass)
     EXPECT_LE(all_ms, report["cpu_ms_per_frame"].get<double>());
 }
 
+// What is timed is what `render` draws: snow has its body. In a film it is laid anew for each frame, for the same picture.
+TEST_F(Render, BenchDrawsTheSnowOfItsFrame)
+{
+    const std::string snow =
+        "[scene]\nfile = \"scene.glb\"\n[weather]\npreset = \"first-snow\"\n[output]\nwidth = 96\nheight = 54\n"
+        "samples = 1\nframes = 6\nfps = 0.15\n";
+    write_file(place_ / "snow.toml", snow);
+    write_file(place_ / "flat.toml", snow + "[render]\nsnow_body = false\n");
+    const auto picture = [&](const char* scenario, const char* name, std::vector<std::string> more) {
+        std::vector<std::string> arguments{"bench", scenario, "--frame", "5", "--repeat", "1", "--png", name};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run_petrichor({.arguments = std::move(arguments)}, place_.path());
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return read_file(place_ / name);
+    };
+    const std::string still = picture("snow.toml", "still.png", {});
+    EXPECT_NE(still, picture("flat.toml", "flat.png", {}));
+    EXPECT_EQ(still, picture("snow.toml", "film.png", {"--film"}));
+}
+
 }  // namespace
 }  // namespace petrichor::cli

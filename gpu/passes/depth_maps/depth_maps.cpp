@@ -119,12 +119,13 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
 
     GraphicsDesc plain;
     plain.vertex = "depth_only.vert";
-    plain.stride = sizeof(Vertex);
-    plain.attributes = {vertex_attributes()[0]};
+    plain.stride = sizeof(glm::vec3);
+    plain.attributes = {position_attribute()};
     plain.specialization = {{DEPTH_SPEC_FLATTEN, falls != Falls::Lamp}};
     GraphicsDesc masked = plain;
     masked.vertex = "depth_masked.vert";
     masked.fragment = "depth_masked.frag";
+    masked.stride = sizeof(Vertex);
     masked.attributes = {vertex_attributes()[0], vertex_attributes()[3], vertex_attributes()[4]};
     masked.sets = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}};
 
@@ -136,6 +137,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     const glm::vec4 eye = eye_of(clip_from_world);
 
     SeenBinder binder(commands, scene, casters.seen.get());
+    VertexBinder vertices(commands, scene);
     const Pipeline* bound = nullptr;
     std::uint32_t bound_material = UINT32_MAX;
     for (const Draw* single : casters.single) {
@@ -145,6 +147,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
         const SeenRange range = binder.range_of(draw);
         if (range.index_count == 0) continue;
         const bool deep = holes_in_relief(material);
+        vertices.bind(!holes);
         if (deep) relief.specialization.back().value = material.parallax;
         const Pipeline& wanted = pass.pipelines().graphics(deep ? relief : holes ? masked : plain);
         if (bound != &wanted) {
@@ -177,6 +180,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     for (const Casters::Run& run : casters.runs) {
         const GpuMaterial& material = scene.materials()[run.first->material];
         const bool holes = material.masked || material.blended;
+        vertices.bind(!holes);
         const Pipeline& wanted = pass.pipelines().graphics(holes ? masked : plain);
         pass.bind(wanted);
         if (holes) {

@@ -41,17 +41,19 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                 GraphicsDesc opaque;
                 opaque.vertex = "visibility.vert";
                 opaque.fragment = "visibility.frag";
-                opaque.stride = sizeof(Vertex);
-                opaque.attributes = {vertex_attributes()[0]};
+                opaque.stride = sizeof(glm::vec3);
+                opaque.attributes = {position_attribute()};
                 opaque.colors = pass.color_formats();
                 opaque.sets = {pass.set_types()};
                 GraphicsDesc masked = opaque;
                 masked.vertex = "visibility_masked.vert";
                 masked.fragment = "visibility_masked.frag";
+                masked.stride = sizeof(Vertex);
                 masked.attributes = {vertex_attributes()[0], vertex_attributes()[3],
                                      vertex_attributes()[4], vertex_attributes()[5]};
                 bind_geometry(pass.commands(), scene);
                 SeenBinder binder(pass.commands(), scene, seen.get());
+                VertexBinder vertices(pass.commands(), scene);
                 for (const DrawRun& run : visible_runs(scene, world_to_clip, camera_m, draws)) {
                     const Draw* draw = run.first;
                     const SeenRange range = run.count > 1 ? SeenRange{} : binder.range_of(*draw);
@@ -59,7 +61,9 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                     const Specialization instanced{VISIBILITY_SPEC_INSTANCED, run.count > 1};
                     const Specialization listed{VISIBILITY_SPEC_LISTED, !range.whole()};
                     const GpuMaterial& material = scene.materials()[draw->material];
-                    if (has_holes(scene, *draw)) {
+                    const bool holes = has_holes(scene, *draw);
+                    vertices.bind(!holes);
+                    if (holes) {
                         GraphicsDesc desc = masked;
                         desc.specialization = {{SURFACE_SPEC_SLOTS, material.slots},
                                                {SURFACE_SPEC_PARALLAX, material.parallax},
