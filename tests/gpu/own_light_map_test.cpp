@@ -111,6 +111,8 @@ TEST_F(OwnLightMap, ADirectionalOneIsMirroredWhereItsLightComesFrom)
 // What a white plate under sun and a lamp sends up, without what its map sends.
 class MappedShadow : public OwnLightMap {
 protected:
+    int lamp_shadows = 0;
+    int lamp_channel = 0;
     float lit(const Material& m, const Texture& map, float height_m, bool sun, bool lamp)
     {
         renderer->load(scene_of({quad({-40, 0, 40}, {80, 0, 0}, {0, 0, -80})}, {m}), {map});
@@ -119,7 +121,7 @@ protected:
         frame.settings.width = frame.settings.height = 16;
         frame.settings.samples = 1;
         frame.settings.image_based_light = false;
-        frame.settings.lamp_shadows = 0;
+        frame.settings.lamp_shadows = lamp_shadows;
         frame.sky.sun_elevation_rad = 1.2f;
         if (!sun) frame.sky.sun_illuminance = 0.0f;
         if (lamp) {
@@ -127,6 +129,7 @@ protected:
             bulb.kind = LightKind::Point;
             bulb.position_m = {1.0f, 4.0f, 0.0f};
             bulb.intensity = 4.0e5f;
+            bulb.mask_channel = lamp_channel;
             frame.extra_lights = {bulb};
         }
         return pixel(renderer->render(frame), 8, 8).g;
@@ -159,6 +162,37 @@ TEST_F(MappedShadow, AMaskTakesTheSunOverWithTheDistanceAndLeavesLamps)
     const float lamp = lit(m, map, 20.0f, false, true);
     ASSERT_GT(lamp, 1000.0f);
     EXPECT_NEAR(lit(m, map, 80.0f, false, true), lamp, 0.01f * lamp);
+}
+
+TEST_F(MappedShadow, AMaskTakesLampsOverByTheirChannels)
+{
+    const Material m = material(example("shadow_mask.glsl"));
+    for (int channel = 1; channel <= 3; ++channel) {
+        lamp_channel = channel;
+        glm::u8vec4 code(255);
+        code[channel] = 51;
+        const Texture map = map_of({{0, 0, 0, 255}, code});
+        // A lamp with a shadow in real time: its word near by, the mask's far away.
+        lamp_shadows = 1;
+        const float all = lit(m, map, 20.0f, false, true);
+        ASSERT_GT(all, 1000.0f);
+        EXPECT_NEAR(lit(m, map, 45.0f, false, true), 0.6f * all, 0.01f * all) << channel;
+        EXPECT_NEAR(lit(m, map, 80.0f, false, true), 0.2f * all, 0.01f * all) << channel;
+        // Without one the mask's word counts everywhere.
+        lamp_shadows = 0;
+        EXPECT_NEAR(lit(m, map, 20.0f, false, true), 0.2f * all, 0.01f * all) << channel;
+        // Another channel is not its own, and the sun goes by its own.
+        lamp_channel = channel % 3 + 1;
+        EXPECT_NEAR(lit(m, map, 80.0f, false, true), all, 0.01f * all) << channel;
+        EXPECT_NEAR(lit(m, map, 80.0f, true, false), lit(m, map, 20.0f, true, false), 10.0f);
+        // A texture of a material without the text is no mask.
+        lamp_channel = channel;
+        EXPECT_NEAR(lit(material(""), map_of({{0, 0, 0, 51}, {0, 0, 0, 51}}), 80.0f, false, true), all, 0.01f * all);
+    }
+    lamp_channel = 0;
+    EXPECT_NEAR(lit(m, map_of({{0, 0, 0, 255}, {51, 51, 51, 51}}), 80.0f, false, true),
+                lit(material(""), map_of({{0, 0, 0, 255}, {0, 0, 0, 255}}), 80.0f, false, true), 1.0f)
+        << "a lamp without a channel";
 }
 
 TEST(LightMapSides, AreSquareToEachOtherAndEvenLightIsLight)

@@ -84,6 +84,7 @@ void main()
     data.texel.baked = l.through * data.filtered;
     data.texel.baked_sky = l.whole;
     data.texel.body = l.body;
+    data.texel.lamp_mask = vec3(1.0);  // the thickness stands there
 #endif
     data.texel.emission = data.emission;
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
