@@ -390,7 +390,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
         const auto& materials = impl_->scene->materials();
         if (std::any_of(materials.begin(), materials.end(),
                         [](const GpuMaterial& m) { return m.blended && m.own_surface != 0; })) {
-            impl_->pipelines.add_shader(kOwnTransparentShader, impl_->scene->own_surfaces().compile_transparent());
+            impl_->pipelines.add_shader(kOwnTransparentShader, impl_->scene->own_surfaces().compile_transparent(impl_->scene->baked()));
         }
     }
 }

@@ -35,9 +35,10 @@ std::vector<std::uint32_t> OwnSurfaces::compile_resolve() const
     return compile("gpu/passes/surface_resolve/surface_resolve.comp.glsl");
 }
 
-std::vector<std::uint32_t> OwnSurfaces::compile_transparent() const
+std::vector<std::uint32_t> OwnSurfaces::compile_transparent(bool baked) const
 {
-    return compile("gpu/passes/transparent/transparent.frag.glsl");
+    return compile(baked ? "gpu/passes/transparent/transparent_baked.frag.glsl"
+                         : "gpu/passes/transparent/transparent.frag.glsl");
 }
 
 std::vector<std::uint32_t> OwnSurfaces::compile(const std::string& main) const

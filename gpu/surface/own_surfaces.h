@@ -24,8 +24,8 @@ public:
     /// SPIR-V of the pass that resolves visible surfaces with users' own in it; empty when there are
     /// none. Throws Error with the user's file and line.
     std::vector<std::uint32_t> compile_resolve() const;
-    /// .. of the pass that draws layers of what lets light through.
-    std::vector<std::uint32_t> compile_transparent() const;
+    /// .. of the pass that draws layers of what lets light through; `baked`: some material has a light map.
+    std::vector<std::uint32_t> compile_transparent(bool baked) const;
 
 private:
     std::vector<std::uint32_t> compile(const std::string& main) const;

@@ -1,4 +1,5 @@
 // Light maps that a surface of a user's own decodes: dual ones, directional ones, the standard beside.
+#include <algorithm>
 #include <cmath>
 
 #include "formulas/light/light_map.h"
@@ -106,6 +107,55 @@ TEST_F(OwnLightMap, ADirectionalOneIsMirroredWhereItsLightComesFrom)
     const float wanted = 0.8f * kScale_lux / 3.14159265f * 0.04f *
                          (power + 8.0f) / 8.0f * side.z;
     EXPECT_NEAR(from(-side.x) - from(side.x), wanted, 0.05f * wanted);
+}
+
+// Half of a blended surface is there, before a black one: half of what it sends where it is solid, decoded in the
+// standard way or in one's own, bent by a normal map, mirrored to the eye or handed over from a near map to a far one.
+TEST_F(OwnLightMap, BlendedSurfacesDecodeAsSolidOnesDo)
+{
+    const auto two = map_of({{204, 102, 51, 255}, {255, 51, 26, 255}});
+    const auto bumps = map_of({{196, 128, 236, 255}});
+    for (const std::string& surface : {std::string(), example("directional_light_map.glsl"), example("dual_light_map.glsl")}) {
+        Material m = material(surface);
+        m.roughness = 0.35f;
+        m.normal_texture.texture = 1;
+        Material black = plain_material(glm::vec3(0.0f), 1.0f);
+        const auto lit = [&](bool blended, glm::vec3 eye, bool mapped) {
+            Material plate = m;
+            if (blended) {
+                plate.alpha_mode = AlphaMode::Blend;
+                plate.base_color.a = 0.5f;
+            }
+            if (!mapped) plate.light_map.texture = kNoTexture;
+            renderer->load(scene_of({quad({-40, 0, 40}, {80, 0, 0}, {0, 0, -80}, 0),
+                                     quad({-40, -1, 40}, {80, 0, 0}, {0, 0, -80}, 1)},
+                                    {plate, black}),
+                           {two, bumps});
+            Frame frame;
+            frame.camera = look(eye, {0, 0, 0}, 0.01f);
+            frame.settings.width = frame.settings.height = 16;
+            frame.settings.samples = 1;
+            frame.settings.shadows = false;
+            frame.settings.image_based_light = false;
+            frame.sky.sun_illuminance = 0.0f;
+            return pixel(renderer->render(frame), 8, 8);
+        };
+        const glm::vec3 side = shared::light_map_side(0);
+        for (const glm::vec3 eye : {10.0f * glm::vec3(-side.x, side.z, 0.02f), 10.0f * glm::vec3(side.x, side.z, 0.02f),
+                                    glm::vec3(0.0f, 30.0f, 0.01f)}) {
+            const auto solid = lit(false, eye, true), blended = lit(true, eye, true);
+            ASSERT_GT(solid.r, 20.0f);
+            EXPECT_NEAR(blended.r, 0.5f * solid.r, 0.004f * solid.r) << surface << " " << eye.x;
+            EXPECT_NEAR(blended.g, 0.5f * solid.g, 0.004f * solid.g) << surface << " " << eye.x;
+            EXPECT_NEAR(blended.b, 0.5f * solid.b, 0.004f * solid.b) << surface << " " << eye.x;
+            EXPECT_EQ(lit(true, eye, false).r, 0.0f) << "all of it comes from the map";
+        }
+        if (surface == example("directional_light_map.glsl")) {
+            const float one = lit(true, 10.0f * glm::vec3(-side.x, side.z, 0.02f), true).g;
+            const float other = lit(true, 10.0f * glm::vec3(side.x, side.z, 0.02f), true).g;
+            EXPECT_GT(std::abs(one - other), 0.05f * std::min(one, other)) << "it knows the eye: " << one << " " << other;
+        }
+    }
 }
 
 // What a white plate under sun and a lamp sends up, without what its map sends.
