@@ -365,7 +365,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
 {
     FrameTargets& layer = r.transparent->layer;
     variant.emission = true;
-    variant.baked = false;
+    variant.baked = r.scene->baked();
     variant.fog = false;
     variant.shares = nullptr;
     variant.background = false;
@@ -376,7 +376,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
                     c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
     };
     const auto light = [&] {
-        add_gbuffer_rows(graph, layer, {true, true, true});
+        add_gbuffer_rows(graph, layer, {true, true, r.scene->baked()});
         add_tile_lists(graph, layer, constants);
         add_light_lists(graph, layer, *r.lights, constants);
         if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);

@@ -1,3 +1,4 @@
+#include "gpu/passes/own_moves/own_moves.h"
 #include "gpu/renderer.h"
 
 #include <algorithm>
@@ -240,6 +241,17 @@ struct Renderer::Impl {
         }
     }
 
+    // True when surfaces of users' own have moved something.
+    bool move_own(const Frame& frame, double time_s, bool posed)
+    {
+        if (!own_moves) return false;
+        shared::FrameConstants now{};
+        now.time_s = static_cast<float>(time_s);
+        now.weather = frame.weather;
+        now.look = frame.look;
+        return own_moves->move(device, pipelines, descriptors, *scene, now, posed);
+    }
+
     // True when this frame resolves a visibility buffer; its tables are then made for its size.
     bool prepare_resolve(TargetSet& set, const Frame& frame)
     {
@@ -346,6 +358,7 @@ struct Renderer::Impl {
     std::unique_ptr<MemoryArena> environment_arena;
     std::unique_ptr<GpuImage> environment;
     std::unique_ptr<GpuScene> scene;
+    std::unique_ptr<OwnMoves> own_moves;  // null: nothing is moved by them
     std::unique_ptr<SnowBody> snow;
     bool own_lighting = false;
     std::string graph_text;
@@ -370,6 +383,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
     impl_->lamp_shadows.forget();
     impl_->light_tables.load(scene.light_profiles);
     impl_->snow = snow && !snow->empty() ? std::make_unique<SnowBody>(std::move(snow)) : nullptr;
+    impl_->own_moves = nullptr;
     impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures,
                                               impl_->snow ? impl_->snow->overlay() : Overlay{});
     auto own_lighting = impl_->scene->lighting_models().compile_lighting();
@@ -377,6 +391,11 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
     if (impl_->own_lighting)
         impl_->pipelines.add_shader(kOwnLightingShader, std::move(own_lighting));
     auto own_surfaces = impl_->scene->own_surfaces().compile_resolve();
+    auto own_moves = impl_->scene->own_surfaces().compile_move();
+    if (!impl_->scene->own_movers().empty()) {
+        impl_->pipelines.add_shader(kOwnMoveShader, std::move(own_moves));
+        impl_->own_moves = std::make_unique<OwnMoves>(impl_->device, *impl_->scene);
+    }
     const bool shapes = !impl_->scene->shapes().empty();
     if ((!own_surfaces.empty() || shapes) &&
         chosen_surface_path(SurfacePath::Auto, impl_->device, *impl_->scene, 1, 1, false) != SurfacePath::Visibility) {
@@ -390,7 +409,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
         const auto& materials = impl_->scene->materials();
         if (std::any_of(materials.begin(), materials.end(),
                         [](const GpuMaterial& m) { return m.blended && m.own_surface != 0; })) {
-            impl_->pipelines.add_shader(kOwnTransparentShader, impl_->scene->own_surfaces().compile_transparent());
+            impl_->pipelines.add_shader(kOwnTransparentShader, impl_->scene->own_surfaces().compile_transparent(impl_->scene->baked()));
         }
     }
 }
@@ -435,7 +454,9 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         {frame.weather.wind_m_s, frame.falling.air_m, frame.settings.time_s});
     const bool switched = scene->choose_levels(frame.camera, frame.settings.lod_scale);
     const bool reshaped = scene->set_shapes(frame.shapes);
-    if (scene->set_materials(frame.materials) || moved || switched || reshaped) {
+    const bool changed = scene->set_materials(frame.materials);
+    const bool washed = move_own(frame, frame.settings.time_s, moved || changed);
+    if (changed || moved || switched || reshaped || washed) {
         depth_maps.forget();
         lamp_shadows.forget();
     }
@@ -511,6 +532,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
             scene->pose(device, now.animation_s,
                         {wind, frame.falling.air_m + glm::dvec2(wind) * now.off_s,
                          frame.settings.time_s + now.off_s});
+            move_own(frame, frame.settings.time_s + now.off_s, true);
             depth_maps.forget();
             lamp_shadows.forget();
             prepare_lights(frame, sun, scene_sun, exposure);

@@ -34,6 +34,9 @@ const std::vector<LightProperty>& light_table()
         row<&S::height_m>("height_m", "height", 1e-3f, 1e3f, "0.5", "of that rectangle"),
         row<&S::specular>("specular", "specular", 0.0f, 1.0f, "1.0",
                           "of its highlights; 0 fills shadows and is mirrored nowhere"),
+        row<&S::mask_channel>("mask_channel", "maskChannel", 0.0f, 3.0f, "0",
+                              "where shadow masks hold its shadow: 1 green, 2 blue, 3 alpha, 0 nowhere; "
+                              "`scene --bake shadow_mask` writes it"),
     };
     return table;
 }
@@ -43,6 +46,10 @@ std::string shape_light(Light& light, const LightShape& shape)
     const bool flat = shape.width_m || shape.height_m;
     const bool round = shape.radius_m || shape.length_m;
     if (shape.specular) light.specular = *shape.specular;
+    if (shape.mask_channel) {
+        if (*shape.mask_channel != std::floor(*shape.mask_channel)) return "the channel of a shadow mask is a whole number";
+        light.mask_channel = static_cast<int>(*shape.mask_channel);
+    }
     if (!flat && !round) {
         light.both_sides = light.both_sides || (shape.both_sides && light.shaped);
         return "";
@@ -84,6 +91,7 @@ LightShape shape_of_light(const Light& light)
         shape.both_sides = light.both_sides;
     }
     if (light.specular != 1.0f) shape.specular = light.specular;
+    if (light.mask_channel > 0) shape.mask_channel = static_cast<float>(light.mask_channel);
     return shape;
 }
 

@@ -18,6 +18,7 @@ struct LightShape {
     std::optional<float> width_m = {};   ///< with height: a rectangle in its x and y axes that faces -z
     std::optional<float> height_m = {};
     std::optional<float> specular = {};  ///< of its highlights
+    std::optional<float> mask_channel = {};  ///< Light::mask_channel
     bool both_sides = false;        ///< of a rectangle
 };
 

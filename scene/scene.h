@@ -427,6 +427,7 @@ struct Light {
     bool shaped = false;     ///< a rectangle that is a lamp, not a surface that glows
     bool glows = false;      ///< a surface that glows, which is seen by itself, too
     float specular = 1.0f;   ///< 0..1: of highlights; 0 fills without any
+    int mask_channel = 0;    ///< of shadow masks, that its shadow is baked in: 1..3; 0: none
     std::int32_t node = kNoNode;  ///< of the rig, that carries it
     std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative
 };

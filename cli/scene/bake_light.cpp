@@ -51,13 +51,18 @@ void add_bake_options(CLI::App& command, BakeArguments& a)
                        "light maps over the second texture coordinates, an EXR a material, and the keys "
                        "that lay them on, into the folder -o. light_map: all light; indirect: without "
                        "what sun and lamps send straight, which stays real-time; shadow_mask: that, and beside it "
-                       "how much of the sun is seen");
+                       "how much of the sun and of lamps is seen");
     number("--sky-lux", a.light.sky_lux, 0.0, 200000.0, "bake: of an overcast sky, on open ground (10000)");
     number("--sun-lux", a.light.sun_lux, 0.0, 200000.0, "bake: of the sun, on a plane that faces it (0)");
     number("--sun-elevation", a.light.sun_elevation_degrees, -90.0, 90.0, "bake: degrees (45)");
     number("--sun-azimuth", a.light.sun_azimuth_degrees, -360.0, 360.0,
            "bake: degrees clockwise from north (180)");
     number("--snow", a.light.snow, 0.0, 1.0, "bake: snow on all that lies open, 0..1 (0)");
+    command.add_option("--mask-lamps", a.light.mask_lamps,
+                       "bake shadow_mask: only lamps of such names have channels (*)")
+        ->each([&a](const std::string&) {
+            if (a.named.empty()) a.named = "--mask-lamps";
+        });
     const auto whole = [&](const char* name, int& value, int low, int high, const char* help) {
         command.add_option(name, value, help)->check(CLI::Range(low, high))->each([&a, name](const std::string&) {
             if (a.named.empty()) a.named = name;
@@ -111,6 +116,11 @@ std::string bake_light_maps(const SceneView& view, const SceneViewOptions& optio
     progress.reset();
     std::string report;
     for (std::size_t i = 0; i < baked.maps.size(); ++i) report += line_of(view, baked.maps[i], files[i]);
+    for (std::size_t i = 0; i < baked.channels.size(); ++i) {
+        if (baked.channels[i] == 0) continue;
+        report += "lamp        \"" + view.scene->lights[i].name + "\" in channel " +
+                  std::to_string(baked.channels[i]) + " of the shadow masks\n";
+    }
     for (const std::string& note : notes) report += "note        " + note + "\n";
     report += "keys        " + (std::filesystem::path(folder) / files.back()).string() + "\n";
     return report;

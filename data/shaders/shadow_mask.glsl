@@ -1,6 +1,7 @@
 // An example of shadows that are partly baked: the left half of the map holds what comes round corners, its
-// right half how much of the sun is seen. Near the camera the sun's real-time shadows count, far away the
-// baked ones; sun and highlights are real-time everywhere.
+// right half how much is seen of the sun (red) and of lamps (green, blue, alpha, by their mask_channel). Near
+// the camera real-time shadows count, far away the baked ones; light and highlights are real-time everywhere.
+// Of lamps whose shadows are not drawn in real time the baked ones count near by, too.
 //
 //   [materials."wall*"]
 //   surface = "shadow_mask.glsl"
@@ -18,5 +19,5 @@ void shadow_mask_surface(SurfaceInput at, inout SurfaceData data)
     data.texel.baked = baked_light(light_map_part(at, 0, 2).rgb);
     const float fade =
         light_map_fade(length(frame.camera_m - at.position), kRealTimeUntil_m, kBakedFrom_m);
-    map_shadows_sun(data, light_map_part(at, 1, 2).r, fade);
+    map_shadows(data, light_map_part(at, 1, 2), fade);
 }

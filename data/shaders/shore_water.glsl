@@ -11,8 +11,9 @@
 //   surface = "shore_water.glsl"
 //
 // Of a material that is blended (preset = "fade") the ground below shows through, the less the deeper.
-// Waves go with the wind and grow with it. They lean the surface, which stays as flat as its mesh. Rain is lost in
-// it, snow melts on it.
+// Waves go with the wind and grow with it. They move the mesh, as far as it is fine enough for them, and lean what
+// is seen by all of them; a plane is cut by `displacement_phong = 1.0` and the other keys of displacement. Rain is
+// lost in the sea, snow melts on it.
 #include "gpu/passes/surface/own_surface.glsl"
 
 const vec3 kShoreDeep = vec3(0.004, 0.022, 0.034);     // light that comes back from below, of clear sea
@@ -34,18 +35,29 @@ vec3 shore_to_eye(SurfaceInput at)
 }
 
 struct ShoreWaves {
+    float height_m;
     vec2 slope;      // of what is resolved
     float variance;  // of its slope, all waves
-    float resolved;  // the part of it that a pixel resolves
+    float resolved;  // the part of it that is resolved
     float crest;     // -1 trough .. 1 crest
 };
 
-// Waves of deep water: the longer, the faster (omega^2 = g k). A wave that is shorter than two pixels only
-// makes the surface rougher.
-ShoreWaves shore_waves(SurfaceInput at, float speed, vec2 along)
+// Crests are uneven: slow noise shifts them, by so much of a turn at a place, and by so much more a metre on.
+vec3 shore_uneven(vec2 xz, float length_m, uint seed)
 {
-    const float pixel_m = max(length(at.position_dx.xz), length(at.position_dy.xz));
-    ShoreWaves w = ShoreWaves(vec2(0.0), 0.0, 0.0, 0.0);
+    const float scale_m = 2.3 * length_m;
+    const vec2 p = xz / scale_m;
+    const float beside = 0.05;
+    const float here = tileable_noise(p, 4096, seed);
+    const vec2 on = vec2(tileable_noise(p + vec2(beside, 0.0), 4096, seed), tileable_noise(p + vec2(0.0, beside), 4096, seed));
+    return 7.0 * vec3(here, (on - here) / (beside * scale_m));
+}
+
+// Waves of deep water: the longer, the faster (omega^2 = g k). Of one that is shorter than twice `least_m` only
+// the roughness is left.
+ShoreWaves shore_waves(vec2 xz, float least_m, float speed, vec2 along)
+{
+    ShoreWaves w = ShoreWaves(0.0, vec2(0.0), 0.0, 0.0, 0.0);
     const float slope = 0.02 + 0.006 * speed;  // of each wave, at its steepest
     float length_m = 1.3 + 0.35 * speed;
     float weight = 0.0;
@@ -54,12 +66,13 @@ ShoreWaves shore_waves(SurfaceInput at, float speed, vec2 along)
         const vec2 d = vec2(along.x * cos(turn) - along.y * sin(turn),
                             along.x * sin(turn) + along.y * cos(turn));
         const float k = 6.2831853 / length_m;
-        // Crests are uneven: slow noise shifts them.
-        const float uneven = 7.0 * tileable_noise(at.position.xz / (2.3 * length_m), 4096, 90u + uint(i));
-        const float phase = k * dot(d, at.position.xz) - sqrt(9.81 * k) * frame.time_s + uneven +
+        const vec3 uneven = shore_uneven(xz, length_m, 90u + uint(i));
+        const float phase = k * dot(d, xz) - sqrt(9.81 * k) * frame.time_s + uneven.x +
                             6.2831853 * hash_f(51u + uint(i));
-        const float seen = 1.0 - smooth_edge(0.25 * length_m, 0.5 * length_m, pixel_m);
-        w.slope += d * (slope * seen * cos(phase));
+        const float seen = 1.0 - smooth_edge(0.25 * length_m, 0.5 * length_m, least_m);
+        const float height_m = slope / k * seen;
+        w.height_m += height_m * sin(phase);
+        w.slope += (k * d + uneven.yz) * (height_m * cos(phase));
         w.variance += 0.5 * slope * slope;
         w.resolved += 0.5 * slope * slope * seen * seen;
         w.crest += seen * length_m * sin(phase);
@@ -68,6 +81,20 @@ ShoreWaves shore_waves(SurfaceInput at, float speed, vec2 along)
     }
     w.crest /= weight;
     return w;
+}
+
+// Speed of the wind, and where it goes.
+vec3 shore_wind()
+{
+    const float speed = length(frame.weather.wind_m_s);
+    return vec3(speed, speed > 0.01 ? frame.weather.wind_m_s / speed : vec2(0.8, 0.6));
+}
+
+vec3 shore_water_move(MoveInput at)
+{
+    const float calm = has(TEXTURE_BASE_COLOR) ? texel_at(base_color_texture, TEXTURE_BASE_COLOR, at).b : at.color.b;
+    const vec3 wind = shore_wind();
+    return vec3(0.0, calm * shore_waves(at.position.xz, at.spacing, wind.x, wind.yz).height_m, 0.0);
 }
 
 // Threads and holes of foam, drifting with the wind; never finer than a pixel.
@@ -96,11 +123,15 @@ void shore_water_input(inout SurfaceInput at)
 void shore_water_surface(SurfaceInput at, inout SurfaceData data)
 {
     const vec4 mask = shore_mask(at);
-    const float speed = length(frame.weather.wind_m_s);
-    const vec2 along = speed > 0.01 ? frame.weather.wind_m_s / speed : vec2(0.8, 0.6);
-    ShoreWaves w = shore_waves(at, speed, along);
+    const vec3 wind = shore_wind();
+    const float speed = wind.x;
+    const vec2 along = wind.yz;
+    const float pixel_m = max(length(at.position_dx.xz), length(at.position_dy.xz));
+    ShoreWaves w = shore_waves(at.position.xz, pixel_m, speed, along);
     const vec2 slope = w.slope * mask.b;
-    vec3 water_normal = normalize(at.normal - vec3(slope.x, 0.0, slope.y) * at.normal.y);
+    // All waves lean the level water, so it is the same whatever part of them the mesh has.
+    const vec3 level = vec3(0.0, at.normal.y < 0.0 ? -1.0 : 1.0, 0.0);
+    vec3 water_normal = normalize(level - vec3(slope.x, 0.0, slope.y) * level.y);
     // Slopes that face away are hidden behind crests: what is seen there is the crest.
     const vec3 eye = shore_to_eye(at);
     water_normal = normalize(water_normal + eye * max(0.04 - dot(water_normal, eye), 0.0));
@@ -131,7 +162,7 @@ void shore_water_surface(SurfaceInput at, inout SurfaceData data)
     data.texel.metallic = 0.0;
     data.texel.f0 = vec3(0.02);
     data.texel.porosity = 0.0;
-    data.texel.base_normal = normalize(mix(water_normal, at.normal, 0.6 * foam));
+    data.texel.base_normal = normalize(mix(water_normal, level, 0.6 * foam));
     data.texel.cover_normal = data.texel.base_normal;
     data.texel.weather = vec4(0.0);
 }

@@ -149,7 +149,9 @@ Image decode_light(const scene::EncodedImage& encoded, const TextureOptions& opt
             const float value = light.pixels[c] * scale;
             light.pixels[c] = value > 0.0f ? std::min(value, 65504.0f) : 0.0f;
         }
-        light.pixels[i + 3] = 1.0f;
+        // A float map may hold a fourth number, 0..1: of shadow masks.
+        const float fourth = light.pixels[i + 3];
+        light.pixels[i + 3] = rgbm || shape.channels < 4 ? 1.0f : fourth > 0.0f ? std::min(fourth, 1.0f) : 0.0f;
     }
     return light;
 }

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/words.h"
 #include "formulas/light/brdf.h"
 #include "gpu/passes/patch_light/patch_albedo.h"
 #include "scene/patches/lamps.h"
+#include "scene/patches/mask_channels.h"
 #include "scene/patches/radiosity.h"
 #include "scene/patches/tracer.h"
 #include "scene/patches/triangles.h"
@@ -81,6 +84,43 @@ void tell(const scene::Scene& scene, const scene::LightMaps& baked, std::vector<
     }
 }
 
+// What a shadow mask is of, and the channels of the scene's lamps.
+struct Masked {
+    std::vector<scene::Light> lamps;
+    std::vector<int> channels;
+};
+
+Masked masked_lamps(const scene::Scene& scene, const BakeConditions& conditions, bool sunny,
+                    std::vector<std::string>& notes)
+{
+    std::vector<bool> wanted;
+    for (const scene::Light& lamp : scene.lights)
+        wanted.push_back(conditions.mask_lamps.empty() || glob_matches(conditions.mask_lamps, lamp.name));
+    Masked masked;
+    masked.channels = scene::mask_channels(scene.lights, wanted);
+    if (sunny) masked.lamps.push_back(sun_of(conditions));
+    std::vector<std::string> without;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        if (masked.channels[i] > 0) {
+            masked.lamps.push_back(scene.lights[i]);
+            masked.lamps.back().mask_channel = masked.channels[i];
+        } else if (wanted[i] && (without.empty() || without.back() != scene.lights[i].name)) {
+            without.push_back(scene.lights[i].name);
+        }
+    }
+    if (masked.lamps.empty()) {
+        throw Error("light map: a shadow mask is of sun and lamps, and none shines",
+                    "Say how bright and how high the sun is: --sun-lux 60000 --sun-elevation 35.");
+    }
+    for (const std::string& name : without) {
+        notes.push_back("lamp \"" + name +
+                        "\" has no channel of the shadow masks: it meets more than " +
+                        std::to_string(scene::kMaskChannels) + " lamps, or another of its name; its shadow "
+                        "stays as it is drawn");
+    }
+    return masked;
+}
+
 std::string in_quotes(const std::string& name)
 {
     std::string text = "\"";
@@ -97,10 +137,8 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
                             const TransportOptions& transport, const scene::BakeOptions& options,
                             std::vector<std::string>& notes)
 {
-    if (conditions.shadow_mask && !(conditions.sun_lux > 0.0 && conditions.sun_elevation_degrees > 0.0)) {
-        throw Error("light map: a shadow mask is of the sun, and no sun shines",
-                    "Say how bright and how high it is: --sun-lux 60000 --sun-elevation 35.");
-    }
+    const bool sunny = conditions.sun_lux > 0.0 && conditions.sun_elevation_degrees > 0.0;
+    const Masked masked = conditions.shadow_mask ? masked_lamps(scene, conditions, sunny, notes) : Masked{};
     const auto patches = prepare_patch_scene(scene, transport, notes);
     const scene::Patches& p = patches->patches;
     shared::WeatherMoment weather;
@@ -111,7 +149,7 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
     std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission;
     for (std::size_t i = 0; i < lamps.size(); ++i)
         scene::add_lamp(p, lamps[i], patches->lamp_reach[i], direct);
-    if (conditions.sun_lux > 0.0 && conditions.sun_elevation_degrees > 0.0) {
+    if (sunny) {
         lamps.push_back(sun_of(conditions));
         scene::add_lamp(p, lamps.back(), {}, direct);
     }
@@ -131,18 +169,9 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
     const scene::Tracer tracer(triangles);
     scene::BakeLight light{lit.radiosity, sky, lamps};
     if (conditions.indirect) light.lamps = {};
+    light.masked = masked.lamps;
     scene::LightMaps baked = scene::bake_light_maps(tracer, p, light, options);
-    if (conditions.shadow_mask) {
-        const scene::Light sun = sun_of(conditions);
-        scene::BakeOptions quick = options;
-        quick.rays = 16;  // they tell only what lies inside of bodies
-        quick.progress = {};
-        const std::vector<glm::vec3> dark(p.count, glm::vec3(0.0f));
-        const scene::LightMaps seen = scene::bake_light_maps(tracer, p, {dark, sky, {}, &sun}, quick);
-        for (std::size_t i = 0; i < baked.maps.size(); ++i) {
-            for (const glm::vec3& texel : seen.maps[i].lux) baked.maps[i].sun_seen.push_back(texel.x);
-        }
-    }
+    baked.channels = masked.channels;
     tell(scene, baked, notes);
     return baked;
 }
@@ -153,31 +182,38 @@ std::vector<std::string> write_light_maps(const std::filesystem::path& folder,
     std::filesystem::create_directories(folder);
     std::vector<std::string> names;
     std::string keys = "# Light maps: irradiance in lux. They hold the sky, so none comes on top.\n";
-    if (!baked.maps.empty() && !baked.maps[0].sun_seen.empty())
-        keys += "# On the right of each, how much of the sun is seen: data/shaders/shadow_mask.glsl reads it.\n";
+    const bool masks = !baked.maps.empty() && !baked.maps[0].seen.empty();
+    if (masks) {
+        keys += "# On the right of each, how much is seen of the sun (red) and of lamps by their channels:\n"
+                "# data/shaders/shadow_mask.glsl reads it.\n";
+        std::set<std::string> told;
+        for (std::size_t i = 0; i < baked.channels.size(); ++i) {
+            const std::string& lamp = scene.lights[i].name;
+            if (baked.channels[i] == 0 || !told.insert(lamp).second) continue;
+            keys += "\n[lamps." + in_quotes(lamp) + "]\nmask_channel = " + std::to_string(baked.channels[i]) + "\n";
+        }
+    }
     for (const scene::LightMap& map : baked.maps) {
         const std::string& material = scene.materials[map.material].name;
         names.push_back("light_" + std::to_string(map.material) +
                         (material.empty() ? "" : "_" + clean(material)) + ".exr");
-        const int parts = map.sun_seen.empty() ? 1 : 2;
-        std::vector<texproc::ExrChannel> channels(3);
-        for (int c = 0; c < 3; ++c) {
+        std::vector<texproc::ExrChannel> channels(masks ? 4 : 3);
+        for (int c = 0; c < (masks ? 4 : 3); ++c) {
             auto& channel = channels[static_cast<std::size_t>(c)];
-            channel.name = std::string(1, "RGB"[c]);
+            channel.name = std::string(1, "RGBA"[c]);
             for (int y = 0; y < map.size; ++y) {
                 const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.size);
-                for (std::size_t x = 0; x < static_cast<std::size_t>(map.size); ++x)
-                    channel.floats.push_back(map.lux[row + x][c]);
-                if (parts == 1) continue;
-                const auto first = map.sun_seen.begin() + static_cast<std::ptrdiff_t>(row);
-                channel.floats.insert(channel.floats.end(), first, first + map.size);
+                const auto end = row + static_cast<std::size_t>(map.size);
+                for (std::size_t i = row; i < end; ++i)
+                    channel.floats.push_back(c < 3 ? map.lux[i][c] : 1.0f);
+                for (std::size_t i = row; masks && i < end; ++i) channel.floats.push_back(map.seen[i][c]);
             }
         }
-        texproc::write_exr(folder / names.back(), parts * map.size, map.size, channels,
+        texproc::write_exr(folder / names.back(), (masks ? 2 : 1) * map.size, map.size, channels,
                            {{"material", material}, {"unit", "lx"}});
         keys += "\n[materials." + in_quotes(material) + "]\nlight_map_texture = " + in_quotes(names.back()) +
                 "\nlight_map_sky = 0.0\n";
-        if (parts == 2) keys += "surface = \"shadow_mask.glsl\"\n";
+        if (masks) keys += "surface = \"shadow_mask.glsl\"\n";
     }
     names.emplace_back("light_maps.toml");
     write_text_file(folder / names.back(), keys);

@@ -20,7 +20,8 @@ struct BakeConditions {
     double north_degrees = 0.0;          ///< where north is: clockwise from -z
     double snow = 0.0;                   ///< 0..1, as WeatherMoment::snow_amount
     bool indirect = false;  ///< without what sun and lamps send straight: that stays real-time
-    bool shadow_mask = false;  ///< beside the light, how much of the sun is seen
+    bool shadow_mask = false;  ///< beside the light, how much of sun and lamps is seen
+    std::string mask_lamps;    ///< glob of lamps that get channels of the mask; empty: all, as far as there are
 };
 
 /// Bakes the light maps of a scene: lamps of the scene, the sun and an overcast sky, surfaces that
@@ -34,7 +35,7 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
                             std::vector<std::string>& notes);
 
 /// Writes a float EXR for each map, lux: the light on the left and on the right, if it has one, its shadow
-/// mask, 0..1; and light_maps.toml: the keys of a scenario that lays them on.
+/// mask, 0..1; and light_maps.toml: the keys of a scenario that lays them on and tells lamps their channels.
 /// Returns the files' names, in the order of the maps, the keys last. Makes the folder.
 std::vector<std::string> write_light_maps(const std::filesystem::path& folder,
                                           const scene::Scene& scene, const scene::LightMaps& maps);

@@ -203,7 +203,8 @@ void PipelineCache::add_shader(const std::string& name, std::vector<std::uint32_
     if (slot == code) return;
     ahead_ = nullptr;
     slot = std::move(code);
-    std::erase_if(pipelines_, [&](const auto& entry) { return entry.first.rfind(name, 0) == 0; });
+    // A graphics pipeline names its fragment shader second.
+    std::erase_if(pipelines_, [&](const auto& entry) { return entry.first.find(name) != std::string::npos; });
 }
 
 void PipelineCache::end_picture(std::uint64_t kept)

@@ -52,4 +52,25 @@ BakedShadow baked_shadow_of(float code)
     return BakedShadow(float(bits / 464u) / 63.0, float(bits / 16u % 29u) / kBakedShadowSteps, float(bits & 1u));
 }
 
+// What it says of lamps stands in the alpha of `emission`, where layers that light passes have the share of their
+// thickness (0..1, as it is): negative halfs again, 31 levels of each of three channels.
+const uint kLampMaskLevels = 31u;
+
+float lamp_mask_code(vec3 seen, float body)
+{
+    const uvec3 level = uvec3(clamp(seen, vec3(0.0), vec3(1.0)) * float(kLampMaskLevels - 1u) + 0.5);
+    if (level == uvec3(kLampMaskLevels - 1u)) return body;
+    const uint code = (level.x * kLampMaskLevels + level.y) * kLampMaskLevels + level.z;
+    return -uintBitsToFloat((code + (113u << 10)) << 13);
+}
+
+vec3 lamp_mask_of(float code)
+{
+    if (code >= 0.0) return vec3(1.0);
+    const uint bits = baked_shadow_bits(code);
+    const uvec3 level = uvec3(bits / (kLampMaskLevels * kLampMaskLevels), bits / kLampMaskLevels % kLampMaskLevels,
+                              bits % kLampMaskLevels);
+    return vec3(level) / float(kLampMaskLevels - 1u);
+}
+
 #endif

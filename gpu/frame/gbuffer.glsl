@@ -27,6 +27,7 @@ struct GBufferTexel {
     vec3 baked;    // of the light map: what a white Lambert surface sends out
     float baked_sky;  // share of skylight that is in it
     BakedShadow baked_shadow;
+    vec3 lamp_mask;  // what the map says of lamps is seen, by their channels; not of layers that light passes
 };
 
 // Two numbers of 8 bits in one of 16.
@@ -78,7 +79,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel, uint flags)
                            ? two_in_one(texel.snow_smoothness, texel.first_share)
                            : texel.snow_smoothness;
     code.weather = vec4(float(texel.material) / 65535.0, snow, stores_code(texel.weather));
-    code.emission = vec4(texel.emission, texel.body);
+    code.emission = vec4(texel.emission, lamp_mask_code(texel.lamp_mask, texel.body));
     code.baked = vec4(texel.baked, baked_shadow_code(texel.baked_shadow, texel.baked_sky));
     return code;
 }
@@ -106,7 +107,8 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint flags)
         texel.first_share = both.y;
     }
     texel.emission = code.emission.rgb;
-    texel.body = code.emission.a;
+    texel.body = code.emission.a < 0.0 ? 1.0 : code.emission.a;
+    texel.lamp_mask = lamp_mask_of(code.emission.a);
     texel.baked = code.baked.rgb;
     texel.baked_sky = baked_sky_of(code.baked.a);
     texel.baked_shadow = baked_shadow_of(code.baked.a);

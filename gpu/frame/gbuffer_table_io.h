@@ -22,7 +22,9 @@
 #define GBUFFER_WEATHER(ROW)                                                                 \
     ROW(weather, 4, R16G16B16A16_UNORM, WEATHER,                                             \
         "number of the material; smoothness of the snow, with two sets the share of the first; in 8 bits each film and standing water, snow and frost")
-#define GBUFFER_EMISSION(ROW) ROW(emission, 5, R16G16B16A16_SFLOAT, EMISSION, "radiance")
+#define GBUFFER_EMISSION(ROW) \
+    ROW(emission, 5, R16G16B16A16_SFLOAT, EMISSION, \
+    "radiance; of a layer its thickness, else codes of the shadows of lamps that a light map holds")
 #define GBUFFER_BAKED(ROW)                       \
     ROW(baked, 6, R16G16B16A16_SFLOAT, BAKED,     \
         "light map: irradiance divided by pi; share of skylight that it holds already, or codes of that and of shadows")

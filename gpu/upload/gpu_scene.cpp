@@ -60,7 +60,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<T
     rig_ = scene.rig && scene.rig->settled ? scene.rig : nullptr;
     rest_lights_ = lights_;
     rest_glow_sources_ = glow_sources_;
-    rest_bounds_ = bounds_;
+    rest_bounds_ = posed_bounds_ = bounds_;
     upload_textures(device, textures);
     make_materials(device, scene);
     upload_geometry(device, scene, overlay);
@@ -171,19 +171,22 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
                 moving_.push_back(std::move(moving));
             }
             const Material& material = scene.materials[draw.material];
-            if (material.wind.moves() && !primitives[p].deforms() && !instance.backdrop) {
+            const bool own = own_surfaces_.moves(materials_[draw.material].own_surface) && !material.decal.on;
+            if ((material.wind.moves() || own) && !primitives[p].deforms() && !instance.backdrop) {
                 auto& shape = shapes[&primitives[p]];
                 if (!shape) shape = std::make_shared<const Primitive>(primitives[p]);
                 draw.waving = static_cast<std::int32_t>(waving_.size());
                 draw.vertex_offset = static_cast<std::int32_t>(first_bending_ + bending_.size());
-                waving_.push_back({shape, {range.low, range.high}, material.wind, bending_.size()});
+                waving_.push_back({shape, {range.low, range.high}, material.wind, bending_.size(),
+                                   own ? static_cast<std::int32_t>(movers_.size()) : -1});
+                if (own) movers_.push_back({shape, bending_.size(), draw.material, draw.to_world});
                 for (std::size_t v = 0; v < shape->positions.size(); ++v)
                     bending_.push_back(vertex_of(*shape, v));
                 if (bending_.size() > kMostWaving) {
-                    throw Error("scene: wind bends more than " + std::to_string(kMostWaving) +
+                    throw Error("scene: wind and surfaces of your own move more than " + std::to_string(kMostWaving) +
                                     " vertices, those of every instance counted",
-                                "Give wind_bend and wind_flutter_m to fewer materials, or thin the "
-                                "plants out.");
+                                "Give wind_bend, wind_flutter_m and such surfaces to fewer materials, or thin "
+                                "the meshes out.");
                 }
             }
             if (material.decal.on) {

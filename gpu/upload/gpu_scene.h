@@ -122,6 +122,11 @@ public:
     /// Brings what moves to where it is at this moment of its clips and in this wind, for the frames that
     /// follow. True when anything may have moved. The device must not be drawing.
     bool pose(const Device& device, double time_s, const scene::Wind& wind = {});
+    /// What users' own surfaces move, where it stands now; and all vertices that bend, of which those are some.
+    const std::vector<OwnMover>& own_movers() const { return movers_; }
+    std::span<const Vertex> bending() const { return bending_; }
+    /// Moves those vertices: by number of a bending vertex. The device must not be drawing.
+    void move_own(const Device& device, std::span<const MovedVertex> moved);
     /// Shapes the overlay of the frames that follow; empty: there is none in them. The device must not
     /// be drawing.
     void lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered = {});
@@ -179,6 +184,7 @@ private:
     void upload_looks(const Device& device, const Scene& scene);
     bool pose_rig(double time_s);
     bool bend(const scene::Wind& wind, bool moved);
+    void upload_bending(const Device& device);
     void upload_geometry(const Device& device, const Scene& scene, const Overlay& overlay);
     void upload_vertices(const Device& device, std::span<const Vertex> vertices, std::size_t first);
     void upload_textures(const Device& device, const std::vector<Texture>& textures);
@@ -209,6 +215,7 @@ private:
     std::shared_ptr<const scene::Rig> rig_;  // null: nothing moves
     std::vector<MovingDraw> moving_;
     std::vector<WavingDraw> waving_;
+    std::vector<OwnMover> movers_;
     scene::Wind wind_;  // that the vertices are bent in
     std::vector<Vertex> bending_;  // the last vertices of the buffer
     std::size_t first_bending_ = 0;
@@ -218,7 +225,7 @@ private:
     std::vector<std::vector<std::uint8_t>> covered_;  // of each draw
     std::vector<Light> rest_lights_;
     std::vector<GlowSource> rest_glow_sources_;
-    Bounds rest_bounds_;
+    Bounds rest_bounds_, posed_bounds_;  // the second without what own surfaces move
     std::optional<double> posed_s_;
     std::uint64_t poses_ = 0;
     std::vector<GpuMaterial> materials_;

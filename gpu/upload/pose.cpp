@@ -88,9 +88,48 @@ bool GpuScene::pose(const Device& device, double time_s, const scene::Wind& wind
     const bool posed = pose_rig(time_s);
     const bool bent = bend(wind, posed);
     if (!posed && !bent) return false;
+    upload_bending(device);
+    return true;
+}
+
+void GpuScene::upload_bending(const Device& device)
+{
     ++poses_;
     upload_vertices(device, bending_, first_bending_);
-    return true;
+}
+
+void GpuScene::move_own(const Device& device, std::span<const MovedVertex> moved)
+{
+    bounds_ = posed_bounds_;
+    for (Draw& draw : draws_) {
+        const std::int32_t mover = draw.waving < 0 ? -1 : waving_[static_cast<std::size_t>(draw.waving)].mover;
+        if (mover < 0) continue;
+        const OwnMover& own = movers_[static_cast<std::size_t>(mover)];
+        const glm::mat3 linear(draw.to_world);
+        const glm::mat3 back = glm::inverse(linear);
+        if (!std::isfinite(back[0].x)) continue;
+        const auto unit = [](const glm::vec3& v, const glm::vec3& otherwise) {
+            const float size = glm::length(v);
+            return size > 0.0f ? v / size : otherwise;
+        };
+        scene::Bounds box = no_box();
+        for (std::size_t i = 0; i < own.shape->positions.size(); ++i) {
+            const MovedVertex& to = moved[own.first_vertex + i];
+            Vertex& v = bending_[own.first_vertex + i];
+            v.position = own.shape->positions[i] + back * to.by_m;
+            v.normal = unit(glm::transpose(linear) * to.normal, own.shape->normals[i]);
+            if (!own.shape->tangents.empty()) {
+                const glm::vec4& t = own.shape->tangents[i];
+                v.tangent = glm::vec4(unit(back * to.tangent, glm::vec3(t)), t.w);
+            }
+            widen(box, v.position);
+        }
+        place_sphere(draw, box);
+        const scene::Bounds here = box_in_world(box, draw.to_world);
+        bounds_.low = glm::min(bounds_.low, here.low);
+        bounds_.high = glm::max(bounds_.high, here.high);
+    }
+    upload_bending(device);
 }
 
 // Vertices that bend, in the wind; all calm moments are one.
@@ -102,6 +141,7 @@ bool GpuScene::bend(const scene::Wind& wind, bool moved)
     const auto wave = [&](Draw& draw) {
         if (draw.waving < 0) return;
         const WavingDraw& waving = waving_[static_cast<std::size_t>(draw.waving)];
+        if (waving.mover >= 0) return;
         const scene::Shape shape =
             scene::waved(*waving.shape, waving.box, draw.to_world, waving.look, now);
         for (std::size_t i = 0; i < shape.positions.size(); ++i) {
@@ -138,7 +178,12 @@ bool GpuScene::pose_rig(double time_s)
         bounds_.low = glm::min(bounds_.low, box.low);
         bounds_.high = glm::max(bounds_.high, box.high);
     };
-    for (Draw& draw : draws_) move(draw);
+    for (Draw& draw : draws_) {
+        move(draw);
+        const std::int32_t mover = draw.waving < 0 ? -1 : waving_[static_cast<std::size_t>(draw.waving)].mover;
+        if (mover >= 0) movers_[static_cast<std::size_t>(mover)].to_world = draw.to_world;
+    }
+    posed_bounds_ = bounds_;
     for (Decal& decal : decals_) {
         move(decal.draw);
         if (!decal.box || decal.box->node == scene::kNoNode) continue;

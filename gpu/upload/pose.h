@@ -27,8 +27,24 @@ struct WavingDraw {
     scene::Bounds box;
     scene::WindLook look;
     std::size_t first_vertex = 0;
+    std::int32_t mover = -1;  ///< number of what a user's own surface moves instead; negative: it is the wind
 };
-/// So many vertices bend in the wind; a scene with more is refused.
+
+/// One primitive of one instance whose vertices a user's own surface moves (gpu/passes/own_moves).
+struct OwnMover {
+    std::shared_ptr<const scene::Primitive> shape;  ///< at rest
+    std::size_t first_vertex = 0;                   ///< of all that bends
+    std::uint32_t material = 0;
+    glm::mat4 to_world{1.0f};
+};
+
+/// What it says of a vertex, in the world.
+struct MovedVertex {
+    glm::vec3 by_m;  ///< from where it rests
+    glm::vec3 normal;
+    glm::vec3 tangent;
+};
+/// So many vertices bend in the wind or are moved by own surfaces; a scene with more is refused.
 inline constexpr std::size_t kMostWaving = 8u << 20;
 
 /// What a draw is at a moment.

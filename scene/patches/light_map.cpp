@@ -69,6 +69,7 @@ bool add_sites(const Triangles& triangles, std::uint32_t t, const TextureUse& us
 // Light at one point; weight 0 inside a body.
 struct Gathered {
     glm::vec3 lux{0.0f};
+    glm::vec4 seen{0.0f};
     bool inside = false;
 };
 
@@ -111,12 +112,7 @@ public:
         Gathered gathered;
         gathered.inside = 2 * found < rays;
         if (gathered.inside) return gathered;
-        if (light_.seen) {
-            const glm::vec3 lux = lamp_irradiance(*light_.seen, x, n);
-            const bool faced = lux.x + lux.y + lux.z > 0.0f;
-            gathered.lux = glm::vec3(faced && lamp_seen(tracer_, *light_.seen, from) ? 1.0f : 0.0f);
-            return gathered;
-        }
+        if (!light_.masked.empty()) gathered.seen = seen(x, n, from);
         gathered.lux = sum / static_cast<float>(found);
         for (const Light& lamp : light_.lamps) {
             const glm::vec3 lux = lamp_irradiance(lamp, x, n);
@@ -126,6 +122,26 @@ public:
     }
 
 private:
+    glm::vec4 seen(glm::vec3 x, glm::vec3 n, glm::vec3 from) const
+    {
+        std::array<const Light*, 4> strongest{};
+        std::array<float, 4> most{};
+        glm::vec4 mask(1.0f);
+        for (const Light& lamp : light_.masked) {
+            const glm::vec3 lux = lamp_irradiance(lamp, x, n);
+            const float sum = lux.x + lux.y + lux.z;
+            const auto channel = static_cast<std::size_t>(lamp.mask_channel);
+            mask[lamp.mask_channel] = 0.0f;
+            if (!(sum > most[channel])) continue;
+            most[channel] = sum;
+            strongest[channel] = &lamp;
+        }
+        for (std::size_t c = 0; c < 4; ++c) {
+            if (strongest[c] && lamp_seen(tracer_, *strongest[c], from)) mask[static_cast<int>(c)] = 1.0f;
+        }
+        return mask;
+    }
+
     const Tracer& tracer_;
     const Patches& patches_;
     const BakeLight& light_;
@@ -147,16 +163,19 @@ void spread(LightMap& map, std::vector<std::uint8_t>& filled, int rounds)
             for (int x = 0; x < map.size; ++x) {
                 if (before[at(x, y)] != 0) continue;
                 glm::vec3 sum(0.0f);
+                glm::vec4 seen(0.0f);
                 float count = 0.0f;
                 for (int dy = -1; dy <= 1; ++dy) {
                     for (int dx = -1; dx <= 1; ++dx) {
                         if (before[at(x + dx, y + dy)] == 0) continue;
                         sum += map.lux[at(x + dx, y + dy)];
+                        if (!map.seen.empty()) seen += map.seen[at(x + dx, y + dy)];
                         count += 1.0f;
                     }
                 }
                 if (count == 0.0f) continue;
                 map.lux[at(x, y)] = sum / count;
+                if (!map.seen.empty()) map.seen[at(x, y)] = seen / count;
                 filled[at(x, y)] = 1;
                 grew = true;
             }
@@ -234,6 +253,7 @@ LightMaps bake_light_maps(const Tracer& tracer, const Patches& patches, const Ba
         map.size = options.size;
         map.texcoord = uses[m].texcoord;
         map.lux.assign(texels, glm::vec3(0.0f));
+        if (!light.masked.empty()) map.seen.assign(texels, glm::vec4(0.0f));
         std::vector<std::uint8_t> filled(texels, 0);
         const auto rows = static_cast<std::size_t>(options.size);
         const int rays = std::max(options.rays / kPoints, 4);
@@ -244,16 +264,19 @@ LightMaps bake_light_maps(const Tracer& tracer, const Patches& patches, const Ba
                 throw Interrupted("interrupted while light maps were baked");
             for (std::size_t i = row * rows; i < (row + 1) * rows; ++i) {
                 glm::vec3 sum(0.0f);
+                glm::vec4 seen(0.0f);
                 float count = 0.0f;
                 for (std::uint32_t s = first[i]; s < first[i + 1]; ++s) {
                     const Gathered g =
                         gather(sites[s], (std::uint64_t{m} << 40) + std::uint64_t{s}, rays);
                     if (g.inside) continue;
                     sum += g.lux;
+                    seen += g.seen;
                     count += 1.0f;
                 }
                 if (count == 0.0f) continue;
                 map.lux[i] = sum / count;
+                if (!map.seen.empty()) map.seen[i] = seen / count;
                 filled[i] = 1;
             }
             const std::size_t now = ++done;

@@ -18,8 +18,9 @@ struct BakeLight {
     std::span<const glm::vec3> radiosity;  ///< of leaves (PatchIrradiance::radiosity): what rays bring
     std::span<const glm::vec3> sky;        ///< pi x mean radiance of a sky bin, kSkyBins entries
     std::span<const Light> lamps;          ///< whose light falls on surfaces directly, with its shadow
-    /// If set, maps hold no light: how much of this lamp is seen, 0..1 in all channels; 0 behind its back.
-    const Light* seen = nullptr;
+    /// If any: beside the light, how much of these is seen. Light::mask_channel is where: 0 the sun's red, 1
+    /// green, 2 blue, 3 alpha. Of several in one channel the one that gives most light there.
+    std::span<const Light> masked = {};
 };
 
 struct BakeOptions {
@@ -37,7 +38,9 @@ struct LightMap {
     std::uint32_t material = 0;
     int size = 0;
     std::vector<glm::vec3> lux;  ///< size * size, row 0 at v = 0; 0 where no island is near
-    std::vector<float> sun_seen; ///< 0..1 by texel; only of shadow masks
+    /// Of shadow masks: by texel and channel how much is seen of what shines there, 0..1; 0
+    /// behind its back, 1 in channels that nothing has.
+    std::vector<glm::vec4> seen;
     int texcoord = 1;            ///< the coordinates: the second, or the first without them
     double covered = 0.0;        ///< share of texels that a surface lies on
     double shared = 0.0;         ///< share of those that several surfaces lie on: a mean of them
@@ -45,6 +48,7 @@ struct LightMap {
 
 struct LightMaps {
     std::vector<LightMap> maps;  ///< by material, ascending
+    std::vector<int> channels;  ///< of shadow masks: Light::mask_channel of the scene's lamps
     /// Materials without one: their coordinates are of no area, or lay more than four surfaces over
     /// each texel in the mean.
     std::vector<std::uint32_t> left_out;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 #include "tests/scene/patch_scenes.h"
 
@@ -94,21 +97,84 @@ TEST(LightBake, AShadowMaskIsWhereTheSunIsSeen)
                        .indirect = true, .shadow_mask = true};
     const auto baked = bake(scene, sun);
     const scene::LightMap& map = baked.maps[0];
-    ASSERT_EQ(map.sun_seen.size(), map.lux.size());
+    ASSERT_EQ(map.seen.size(), map.lux.size());
     // The ground has the 36 texels a side in the middle: 2 m x 4 m of its 64 m2, and the foot of the wall.
     ASSERT_EQ(map.size, 48);
     double dark = 0.0;
     for (int y = 6; y < 42; ++y) {
         for (int x = 6; x < 42; ++x)
-            dark += 1.0 - static_cast<double>(map.sun_seen[static_cast<std::size_t>(y * map.size + x)]);
+            dark += 1.0 - static_cast<double>(map.seen[static_cast<std::size_t>(y * map.size + x)].x);
     }
     EXPECT_NEAR(dark / 1296.0, 10.0 / 64.0, 0.03);
-    for (const float seen : map.sun_seen) {
-        EXPECT_GE(seen, 0.0f);
-        EXPECT_LE(seen, 1.0f);
+    for (const glm::vec4& seen : map.seen) {
+        EXPECT_GE(seen.x, 0.0f);
+        EXPECT_LE(seen.x, 1.0f);
+        if (seen.x + seen.y > 0.0f) EXPECT_EQ(glm::vec3(seen.y, seen.z, seen.w), glm::vec3(1.0f)) << "there is no lamp";
     }
     sun.sun_elevation_degrees = -1.0;
     EXPECT_THROW(bake(scene, sun), Error);
+}
+
+scene::Light bulb(const std::string& name, glm::vec3 at, float candela)
+{
+    scene::Light lamp;
+    lamp.name = name;
+    lamp.position_m = at;
+    lamp.intensity = candela;
+    return lamp;
+}
+
+// A pillar between two lamps, and a third one far away: each texel of the ground against the ray to the lamp
+// of its channel, cut with the pillar's sides.
+TEST(LightBake, AShadowMaskHoldsLampsByTheirChannels)
+{
+    scene::Scene scene = empty_scene();
+    add_face(scene, {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+    unwrap(scene);
+    const glm::vec3 low{-0.5f, 0, -0.5f}, high{0.5f, 2, 0.5f};
+    add_box(scene, low, high, false, add_material(scene, {}));
+    scene.lights = {bulb("left", {-3, 3, 1}, 100.0f), bulb("right", {3, 4, 0}, 300.0f),
+                    bulb("far away", {0, 3, 500}, 200.0f), bulb("faint", {0, 3, 3}, 1.0f)};
+    std::vector<std::string> notes;
+    const auto baked = bake(scene, {.sky_lux = 0.0, .shadow_mask = true}, &notes);
+    EXPECT_EQ(baked.channels, (std::vector<int>{2, 1, 1, 3})) << "the strongest first; what is far away shares";
+    const auto hidden = [&](glm::vec3 from, glm::vec3 to) {
+        float enter = 0.0f, leave = 1.0f;
+        for (int i = 0; i < 3; ++i) {
+            const float a = (low[i] - from[i]) / (to[i] - from[i]), b = (high[i] - from[i]) / (to[i] - from[i]);
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        return enter < leave;
+    };
+    const scene::LightMap& map = baked.maps[0];
+    for (const std::size_t lamp : {0u, 1u, 3u}) {
+        double wrong = 0.0, dark = 0.0;
+        int asked = 0;
+        for (int y = 6; y < 42; ++y) {
+            for (int x = 6; x < 42; ++x) {
+                // As add_face lays it: u along z, v along x.
+                const glm::vec3 at{(static_cast<float>(y) - 5.5f) / 36.0f * 8.0f - 4.0f, 0.0f,
+                                   (static_cast<float>(x) - 5.5f) / 36.0f * 8.0f - 4.0f};
+                if (std::abs(at.x) < 0.6f && std::abs(at.z) < 0.6f) continue;  // below the pillar
+                const bool shade = hidden(at, scene.lights[lamp].position_m);
+                const float seen = map.seen[static_cast<std::size_t>(y * map.size + x)][baked.channels[lamp]];
+                wrong += std::abs(static_cast<double>(seen) - (shade ? 0.0 : 1.0));
+                dark += shade ? 1.0 : 0.0;
+                ++asked;
+            }
+        }
+        EXPECT_GT(dark / asked, 0.02) << scene.lights[lamp].name;
+        EXPECT_LT(wrong / asked, 0.02) << scene.lights[lamp].name << ": texels that an edge crosses";
+    }
+    // One too many where all meet: the faintest has none, and is named. By choice others have them.
+    scene.lights.push_back(bulb("dim", {1, 3, 3}, 0.5f));
+    EXPECT_EQ(bake(scene, {.sky_lux = 0.0, .shadow_mask = true}, &notes).channels.back(), 0);
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& n) {
+        return n.find("\"dim\" has no channel") != std::string::npos;
+    }));
+    EXPECT_EQ(bake(scene, {.sky_lux = 0.0, .shadow_mask = true, .mask_lamps = "dim"}).channels,
+              (std::vector<int>{0, 0, 0, 0, 1}));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Light maps that a surface of a user's own decodes: dual ones, directional ones, the standard beside.
+#include <algorithm>
 #include <cmath>
 
 #include "formulas/light/light_map.h"
@@ -108,9 +109,60 @@ TEST_F(OwnLightMap, ADirectionalOneIsMirroredWhereItsLightComesFrom)
     EXPECT_NEAR(from(-side.x) - from(side.x), wanted, 0.05f * wanted);
 }
 
+// Half of a blended surface is there, before a black one: half of what it sends where it is solid, decoded in the
+// standard way or in one's own, bent by a normal map, mirrored to the eye or handed over from a near map to a far one.
+TEST_F(OwnLightMap, BlendedSurfacesDecodeAsSolidOnesDo)
+{
+    const auto two = map_of({{204, 102, 51, 255}, {255, 51, 26, 255}});
+    const auto bumps = map_of({{196, 128, 236, 255}});
+    for (const std::string& surface : {std::string(), example("directional_light_map.glsl"), example("dual_light_map.glsl")}) {
+        Material m = material(surface);
+        m.roughness = 0.35f;
+        m.normal_texture.texture = 1;
+        Material black = plain_material(glm::vec3(0.0f), 1.0f);
+        const auto lit = [&](bool blended, glm::vec3 eye, bool mapped) {
+            Material plate = m;
+            if (blended) {
+                plate.alpha_mode = AlphaMode::Blend;
+                plate.base_color.a = 0.5f;
+            }
+            if (!mapped) plate.light_map.texture = kNoTexture;
+            renderer->load(scene_of({quad({-40, 0, 40}, {80, 0, 0}, {0, 0, -80}, 0),
+                                     quad({-40, -1, 40}, {80, 0, 0}, {0, 0, -80}, 1)},
+                                    {plate, black}),
+                           {two, bumps});
+            Frame frame;
+            frame.camera = look(eye, {0, 0, 0}, 0.01f);
+            frame.settings.width = frame.settings.height = 16;
+            frame.settings.samples = 1;
+            frame.settings.shadows = false;
+            frame.settings.image_based_light = false;
+            frame.sky.sun_illuminance = 0.0f;
+            return pixel(renderer->render(frame), 8, 8);
+        };
+        const glm::vec3 side = shared::light_map_side(0);
+        for (const glm::vec3 eye : {10.0f * glm::vec3(-side.x, side.z, 0.02f), 10.0f * glm::vec3(side.x, side.z, 0.02f),
+                                    glm::vec3(0.0f, 30.0f, 0.01f)}) {
+            const auto solid = lit(false, eye, true), blended = lit(true, eye, true);
+            ASSERT_GT(solid.r, 20.0f);
+            EXPECT_NEAR(blended.r, 0.5f * solid.r, 0.004f * solid.r) << surface << " " << eye.x;
+            EXPECT_NEAR(blended.g, 0.5f * solid.g, 0.004f * solid.g) << surface << " " << eye.x;
+            EXPECT_NEAR(blended.b, 0.5f * solid.b, 0.004f * solid.b) << surface << " " << eye.x;
+            EXPECT_EQ(lit(true, eye, false).r, 0.0f) << "all of it comes from the map";
+        }
+        if (surface == example("directional_light_map.glsl")) {
+            const float one = lit(true, 10.0f * glm::vec3(-side.x, side.z, 0.02f), true).g;
+            const float other = lit(true, 10.0f * glm::vec3(side.x, side.z, 0.02f), true).g;
+            EXPECT_GT(std::abs(one - other), 0.05f * std::min(one, other)) << "it knows the eye: " << one << " " << other;
+        }
+    }
+}
+
 // What a white plate under sun and a lamp sends up, without what its map sends.
 class MappedShadow : public OwnLightMap {
 protected:
+    int lamp_shadows = 0;
+    int lamp_channel = 0;
     float lit(const Material& m, const Texture& map, float height_m, bool sun, bool lamp)
     {
         renderer->load(scene_of({quad({-40, 0, 40}, {80, 0, 0}, {0, 0, -80})}, {m}), {map});
@@ -119,7 +171,7 @@ protected:
         frame.settings.width = frame.settings.height = 16;
         frame.settings.samples = 1;
         frame.settings.image_based_light = false;
-        frame.settings.lamp_shadows = 0;
+        frame.settings.lamp_shadows = lamp_shadows;
         frame.sky.sun_elevation_rad = 1.2f;
         if (!sun) frame.sky.sun_illuminance = 0.0f;
         if (lamp) {
@@ -127,6 +179,7 @@ protected:
             bulb.kind = LightKind::Point;
             bulb.position_m = {1.0f, 4.0f, 0.0f};
             bulb.intensity = 4.0e5f;
+            bulb.mask_channel = lamp_channel;
             frame.extra_lights = {bulb};
         }
         return pixel(renderer->render(frame), 8, 8).g;
@@ -159,6 +212,37 @@ TEST_F(MappedShadow, AMaskTakesTheSunOverWithTheDistanceAndLeavesLamps)
     const float lamp = lit(m, map, 20.0f, false, true);
     ASSERT_GT(lamp, 1000.0f);
     EXPECT_NEAR(lit(m, map, 80.0f, false, true), lamp, 0.01f * lamp);
+}
+
+TEST_F(MappedShadow, AMaskTakesLampsOverByTheirChannels)
+{
+    const Material m = material(example("shadow_mask.glsl"));
+    for (int channel = 1; channel <= 3; ++channel) {
+        lamp_channel = channel;
+        glm::u8vec4 code(255);
+        code[channel] = 51;
+        const Texture map = map_of({{0, 0, 0, 255}, code});
+        // A lamp with a shadow in real time: its word near by, the mask's far away.
+        lamp_shadows = 1;
+        const float all = lit(m, map, 20.0f, false, true);
+        ASSERT_GT(all, 1000.0f);
+        EXPECT_NEAR(lit(m, map, 45.0f, false, true), 0.6f * all, 0.01f * all) << channel;
+        EXPECT_NEAR(lit(m, map, 80.0f, false, true), 0.2f * all, 0.01f * all) << channel;
+        // Without one the mask's word counts everywhere.
+        lamp_shadows = 0;
+        EXPECT_NEAR(lit(m, map, 20.0f, false, true), 0.2f * all, 0.01f * all) << channel;
+        // Another channel is not its own, and the sun goes by its own.
+        lamp_channel = channel % 3 + 1;
+        EXPECT_NEAR(lit(m, map, 80.0f, false, true), all, 0.01f * all) << channel;
+        EXPECT_NEAR(lit(m, map, 80.0f, true, false), lit(m, map, 20.0f, true, false), 10.0f);
+        // A texture of a material without the text is no mask.
+        lamp_channel = channel;
+        EXPECT_NEAR(lit(material(""), map_of({{0, 0, 0, 51}, {0, 0, 0, 51}}), 80.0f, false, true), all, 0.01f * all);
+    }
+    lamp_channel = 0;
+    EXPECT_NEAR(lit(m, map_of({{0, 0, 0, 255}, {51, 51, 51, 51}}), 80.0f, false, true),
+                lit(material(""), map_of({{0, 0, 0, 255}, {0, 0, 0, 255}}), 80.0f, false, true), 1.0f)
+        << "a lamp without a channel";
 }
 
 TEST(LightMapSides, AreSquareToEachOtherAndEvenLightIsLight)

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 
 #include "base/error.h"
+#include "formulas/noise/noise.h"
+#include "scene/patches/mask_channels.h"
 #include "tests/scene/patch_scenes.h"
 
 namespace petrichor::scene {
@@ -200,6 +203,64 @@ TEST(LightMapBake, RefusesOptionsOutOfRange)
     bake.options.size = 64;
     bake.options.rays = 100000;
     EXPECT_THROW(bake(), Error);
+}
+
+// Of lamps thrown at random: who shares a channel does not meet, and who has none meets one of each.
+TEST(MaskChannels, LampsThatShareOneDoNotMeet)
+{
+    std::vector<Light> lamps(60);
+    for (std::uint32_t i = 0; i < 60; ++i) {
+        const auto random = [&](std::uint32_t k) { return shared::hash_f(shared::hash_u3(i, k, 7u)); };
+        lamps[i].name = "lamp " + std::to_string(i);
+        lamps[i].kind = i % 3 == 0 ? LightKind::Spot : LightKind::Point;
+        lamps[i].position_m = 100.0f * glm::vec3(random(0), 0.1f * random(1), random(2));
+        lamps[i].direction = glm::normalize(glm::vec3(random(3), random(4), random(5)) - 0.5f);
+        lamps[i].outer_cone_rad = 0.2f + 1.2f * random(6);
+        lamps[i].intensity = 1.0f + 40.0f * random(8);
+        if (i % 2 == 0) lamps[i].range_m = 20.0f * random(9);
+    }
+    const std::vector<int> channels = mask_channels(lamps);
+    const auto meet = [&](std::size_t i, std::size_t k) {
+        const LampReach a = lamp_reach(lamps[i]), b = lamp_reach(lamps[k]);
+        return glm::length(a.centre_m - b.centre_m) < a.radius_m + b.radius_m;
+    };
+    int without = 0, shared_ones = 0;
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        std::array<bool, kMaskChannels + 1> met{};
+        for (std::size_t k = 0; k < lamps.size(); ++k) {
+            if (k == i || !meet(i, k)) continue;
+            met[static_cast<std::size_t>(channels[k])] = true;
+            EXPECT_FALSE(channels[i] > 0 && channels[i] == channels[k]) << i << " " << k;
+        }
+        if (channels[i] == 0) {
+            ++without;
+            EXPECT_TRUE(met[1] && met[2] && met[3]) << i;
+        }
+        for (std::size_t k = 0; k < i; ++k) shared_ones += channels[i] > 0 && channels[i] == channels[k];
+    }
+    EXPECT_GT(without, 0);
+    EXPECT_GT(shared_ones, 20);
+    // What a ball holds: no place in the cone, as far as the lamp reaches, is outside.
+    for (std::size_t i = 0; i < lamps.size(); i += 3) {
+        const LampReach ball = lamp_reach(lamps[i]);
+        const float far_m = lamps[i].range_m > 0.0f ? lamps[i].range_m : std::sqrt(lamps[i].intensity / kMaskLeast_lux);
+        const glm::vec3 d = lamps[i].direction;
+        const glm::vec3 side = glm::normalize(glm::cross(d, std::abs(d.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+        for (const float angle : {0.0f, 0.5f, 1.0f}) {
+            const float turn = angle * lamps[i].outer_cone_rad;
+            const glm::vec3 way = d * std::cos(turn) + side * std::sin(turn);
+            for (const float share : {0.0f, 0.5f, 1.0f})
+                EXPECT_LE(glm::length(lamps[i].position_m + way * (share * far_m) - ball.centre_m), ball.radius_m * 1.0001f);
+        }
+    }
+    // Of one name: together or not at all.
+    std::vector<Light> twins(2);
+    twins[0].name = twins[1].name = "twin";
+    twins[1].position_m = {0.5f, 0, 0};
+    EXPECT_EQ(mask_channels(twins), (std::vector<int>{0, 0}));
+    twins[1].position_m = {50.0f, 0, 0};
+    EXPECT_EQ(mask_channels(twins), (std::vector<int>{1, 1}));
+    EXPECT_EQ(mask_channels(twins, {true, false}), (std::vector<int>{1, 0}));
 }
 
 }  // namespace

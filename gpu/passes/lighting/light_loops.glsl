@@ -1,6 +1,33 @@
 // Lights of the table that reach a pixel: a loop for each kind (gpu/passes/lights/lights.h), so that what no
 // light of a loop has is left out of it.
 
+// Of lamps whose shadows a light map holds (gpu/frame/baked_shadow.glsl).
+// The plain one last: else glslang does not take it for a constant.
+const bool MASKED = (WAYS & LIGHTS_MASKED) != 0u && BAKED != 0u;
+vec3 lamp_mask = vec3(1.0);    // of this pixel, by channel
+float lamp_mask_share = 0.0;
+
+struct LampShadow {
+    float number;   // of its shadow map; below 0: none
+    float channel;  // of masks, from 1; 0: none
+};
+
+LampShadow shadow_of(LightRow light)
+{
+    float channel = 0.0;
+    if (MASKED) channel = floor((light.across.w + 1.0) / LIGHT_MASK_STEP);
+    return LampShadow(light.across.w - LIGHT_MASK_STEP * channel, channel);
+}
+
+// What is seen of a lamp. Without a shadow in real time the mask's word counts everywhere.
+float masked(float visible, LampShadow shadow)
+{
+    const float seen = shadow.channel < 1.5 ? lamp_mask.x : shadow.channel < 2.5 ? lamp_mask.y : lamp_mask.z;
+    float share = 1.0;
+    if (LAMP_SHADOWS != 0u) share = shadow.number >= 0.0 ? lamp_mask_share : 1.0;
+    return shadow.channel < 0.5 ? visible : mix(visible, seen, share);
+}
+
 // One light of the table; zero out of its range or behind the surface.
 vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed, const bool shaped)
 {
@@ -13,14 +40,16 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
     if (SKIPS && !lit) return vec3(0.0);
     float visible = 1.0;
     bool one_of_shape = shaped;  // all of that loop are, and end before
+    const LampShadow shadow = shadow_of(light);
     if (LAMP_SHADOWS != 0u && shadowed) {
-        const float number = light.across.w;
+        const float number = shadow.number;
         vec3 from = sphere.xyz;
         if (SOFT_LAMPS != 0u) from += frame.lamp_offset_m[max(int(number), 0)].xyz;
         if (number >= 0.0) visible = lamp_visibility(number, from, p.position, p.mesh_normal, texel);
-        lit = lit && (visible > 0.0 || BLEEDS);
-        if (SKIPS && !lit) return vec3(0.0);
     }
+    if (MASKED) visible = masked(visible, shadow);
+    lit = lit && (visible > 0.0 || BLEEDS);
+    if (SKIPS && !lit) return vec3(0.0);
     if (WAYS != 0u) {
         const vec4 size = light.size;
         if (shaped && (WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u && size.x > 0.0) {
@@ -112,7 +141,9 @@ void add_all_lights(inout vec3 radiance, LitPoint p, bool there, ivec2 texel)
 {
     for (uint i = 0u; i < ((WAYS & LIGHTS_FAR) != 0u ? frame.directional_count : 0u); ++i) {
         const LightRow light = light_row(int(i));
-        radiance += shadowed_light(p, -light.axis.xyz, 1.0) * light.color.rgb;
+        float visible = 1.0;
+        if (MASKED) visible = masked(visible, shadow_of(light));
+        radiance += shadowed_light(p, -light.axis.xyz, visible) * light.color.rgb;
     }
     LitGroup group;
     if (SIFTED) group = group_of(p.position, p.normal, there);

@@ -11,7 +11,7 @@ struct LightRow {
     vec4 sphere;  // centre, world metres; reach, metres
     vec4 color;   // strength; cosine of the outer cone, or LIGHT_...
     vec4 axis;    // direction, or half a side; cosine of the inner cone
-    vec4 across;  // up, or half the other side; number of its shadow, -1: none
+    vec4 across;  // up, or half the other side; number of its shadow, -1: none; and its channel of masks
     float inverse_reach2;  // 1/m2
     vec4 size;    // radius and half length, metres; share of the highlight, or LIGHT_GLOWS; number of its profile, -1: none
 };

@@ -501,6 +501,10 @@ void main()
             }
         }
         // Lamps whose light the map holds are in it.
+        if (MASKED) {
+            lamp_mask = g.lamp_mask;
+            lamp_mask_share = g.baked_shadow.share;
+        }
         const float lamps = BAKED != 0u ? 1.0 - g.baked_shadow.share * g.baked_shadow.lamps : 1.0;
         add_lights(direct, p, lamps, there, texel);
         Gathered gathered;

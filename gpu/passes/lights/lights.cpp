@@ -227,6 +227,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         if (light->specular != 1.0f && light->kind != LightKind::Directional)
             table.ways |= LIGHTS_FILL;
         if (spot) table.ways |= LIGHTS_CONE;
+        if (light->mask_channel > 0) table.ways |= LIGHTS_MASKED;
         if (light->profile >= 0) table.ways |= LIGHTS_PROFILE;
         const float kind = spot                ? std::cos(light->outer_cone_rad)
                            : !rectangle        ? LIGHT_POINT
@@ -239,7 +240,8 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         texels.emplace_back(rectangle               ? light->half_v_m
                             : light->length_m > 0.0f ? light->up
                                                      : up_of(*light),
-                            static_cast<float>(shadow[number_of(light)]));
+                            static_cast<float>(shadow[number_of(light)]) +
+                                LIGHT_MASK_STEP * static_cast<float>(light->mask_channel));
         texels.emplace_back(!sized ? 0.0f : rectangle ? 1.0f : light->radius_m,
                             rectangle ? windowed : 0.5f * light->length_m, light->glows ? static_cast<float>(LIGHT_GLOWS) : light->specular,
                             static_cast<float>(light->profile));

@@ -8,11 +8,12 @@
 //       cone, or one of the kinds below
 //   2   axis (rectangle: half of an edge); cosine of the inner cone
 //   3   of a rectangle: half of the other edge, so that cross(2, 3) is its front; else across the axis;
-//       the number of its shadow, or -1
+//       the number of its shadow, or -1, and LIGHT_MASK_STEP times its channel of shadow masks, if it has one
 //   4   of lamps that have a size (with LIGHTS_... below): radius, 0 none, of a rectangle 1; half the
 //       length of a tube, of a rectangle 0..1 how far its window fades it towards its reach; share of highlights; the number of its profile, or -1
 #define LIGHT_TEXELS 5
 #define LIGHT_PROFILE_SIDE 128  // texels a side of a profile
+#define LIGHT_MASK_STEP 64.0f
 #define LIGHT_POINT -2.0f
 #define LIGHT_ONE_SIDE -3.0f
 #define LIGHT_BOTH_SIDES -4.0f
@@ -36,6 +37,8 @@
 #define LIGHTS_SHADOWED 8192u  // of the table: a shadow and no shape
 #define LIGHTS_SHADOWED_SHAPED 16384u  // of the table: a shadow and a shape
 #define LIGHTS_ONE_WORD 32768u  // of the table: at most 32, a list has one word at most
+
+#define LIGHTS_MASKED 65536u  // of the table: a channel of shadow masks
 
 #define LIGHTS_FEW 128u
 

@@ -152,6 +152,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.baked = vec3(0.0);
     data.texel.baked_sky = 0.0;
     data.texel.baked_shadow = no_baked_shadow();
+    data.texel.lamp_mask = vec3(1.0);
     if (SURFACE_BAKED != 0) {
         if (has(TEXTURE_LIGHT_MAP)) {
             const vec3 lux = texel(light_map_texture, coordinates(TEXTURE_LIGHT_MAP, at, vec2(0.0))).rgb;

@@ -2,7 +2,7 @@
 // the standard decode in data.texel.baked (light_map_texture times light_map_scale over pi: what a white
 // diffuser sends out) and may put another one there; data.texel.baked_sky is the share of skylight that
 // the map holds. A map of two pictures has them side by side, the first on the left. What the map knows of
-// sun and lamps, map_holds_direct and map_shadows_sun tell the light.
+// sun and lamps, map_holds_direct and map_shadows tell the light.
 #ifndef PETRICHOR_OWN_LIGHT_MAP_GLSL
 #define PETRICHOR_OWN_LIGHT_MAP_GLSL
 
@@ -41,7 +41,16 @@ void map_holds_direct(inout SurfaceData data, float share)
     data.texel.baked_shadow = BakedShadow(0.0, share, 1.0);
 }
 
-// How much of the sun the map says is seen, 0..1, and how far its word stands in for the real-time shadow.
+// How much the map says is seen, 0..1, of the sun (red) and of lamps by their channels (mask_channel of a lamp: 1
+// green, 2 blue, 3 alpha), and how far its word stands in for real-time shadows. For a lamp that has none it
+// stands in everywhere.
+void map_shadows(inout SurfaceData data, vec4 visible, float share)
+{
+    data.texel.baked_shadow = BakedShadow(visible.r, share, 0.0);
+    data.texel.lamp_mask = visible.gba;
+}
+
+// .. of the sun alone.
 void map_shadows_sun(inout SurfaceData data, float visible, float share)
 {
     data.texel.baked_shadow = BakedShadow(visible, share, 0.0);

@@ -1,6 +1,7 @@
 #include "gpu/passes/surface/surface.h"
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 #include <utility>
 
@@ -28,10 +29,10 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
 {
     GBuffer& g = targets.gbuffer;
     const GBufferParts parts =
-        layer ? GBufferParts{true, true, true} : gbuffer_parts(scene, weather.any);
+        layer ? GBufferParts{true, true, scene.baked()} : gbuffer_parts(scene, weather.any);
     const bool chance = layer ? layer->by_chance : true;
     const std::uint32_t first = layer && layer->first ? 1 : 0;
-    const std::string fragment = layer ? "transparent.frag" : fragment_shader(parts);
+    const std::string fragment = layer ? (parts.baked ? "transparent_baked.frag" : "transparent.frag") : fragment_shader(parts);
     Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, texels(*maps.flow_quads)},
@@ -46,11 +47,16 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
         bindings.push_back({SURFACE_LAYER_BEFORE, sampled(*layer->before, targets.nearest)});
     }
     const bool layered = layer != nullptr;
+    std::vector<Attachment> colors = gbuffer_attachments(g, parts);
+    if (layer) {
+        assert(colors.size() == SURFACE_LAYER_THROUGH);
+        colors.emplace_back(*layer->through);
+    }
     const std::uint32_t tracks = (maps.track_area.width > 0 ? SNOW_TRACKS : 0u) |
                                  (scene.overlaid() ? SNOW_BODY : 0u);
     graph.add(DrawPass{
         .name = layer ? "transparent" : "surface",
-        .colors = gbuffer_attachments(g, parts),
+        .colors = std::move(colors),
         .depth = Attachment(*g.depth),
         .width = targets.width,
         .height = targets.height,

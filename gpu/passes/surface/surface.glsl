@@ -1,11 +1,11 @@
 // The surface pass: writes the material and the weather at each pixel (evaluate_surface.glsl).
 //
-// Compiled six times, since a target that nobody reads is not written:
+// Compiled eight times, since a target that nobody reads is not written:
 //   SURFACE_WEATHER   1: masks of water, snow and frost
 //   SURFACE_EMISSION  1: radiance of materials that glow
 //   SURFACE_BAKED     1: light of light maps, with SURFACE_EMISSION only
 //   SURFACE_LAYER     1: a layer of what lets light through (passes/transparent); what it lets through
-//                     stands where light maps would
+//                     has a target of its own behind those of the G-buffer
 #ifndef SURFACE_LAYER
 #define SURFACE_LAYER 0
 #endif
@@ -37,7 +37,7 @@ layout(location = 5) in vec4 in_weather;
 #else
 #define EMISSION_TARGETS(ROW)
 #endif
-#if SURFACE_BAKED || SURFACE_LAYER
+#if SURFACE_BAKED
 #define BAKED_TARGETS(ROW) GBUFFER_BAKED(ROW)
 #else
 #define BAKED_TARGETS(ROW)
@@ -48,6 +48,9 @@ layout(location = 5) in vec4 in_weather;
     layout(location = location_) out vec4 out_##name;
 TARGETS(ROW)
 #undef ROW
+#if SURFACE_LAYER
+layout(location = SURFACE_LAYER_THROUGH) out vec4 out_through;
+#endif
 
 void main()
 {
@@ -81,9 +84,9 @@ void main()
                                data.texel.base_normal, data.opacity);
     if (HOLES != 0u) l = LetThrough(1.0, 1.0, vec3(0.0), 1.0);  // by chance: it is here, or it is not
     data.texel.base_color *= l.matt;
-    data.texel.baked = l.through * data.filtered;
-    data.texel.baked_sky = l.whole;
+    out_through = vec4(l.through * data.filtered, l.whole);
     data.texel.body = l.body;
+    data.texel.lamp_mask = vec3(1.0);  // the thickness stands there
 #endif
     data.texel.emission = data.emission;
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);

@@ -20,6 +20,7 @@ inline constexpr const char* kOwnTransparentShader = "own_transparent.frag";
 struct SurfaceLayer {
     GpuImage* solid_depth = nullptr;  ///< nothing behind it is drawn
     GpuImage* before = nullptr;       ///< depth of the layer before: nothing as near is
+    GpuImage* through = nullptr;      ///< written: what it lets through of what lies behind; alpha: share of what it sends
     bool first = true;                ///< there is none
     bool by_chance = false;           ///< surfaces are seen or not, a sample at a time
 };

@@ -39,6 +39,7 @@
 // A layer of what lets light through: what it lies between, behind those of all surfaces.
 #define SURFACE_LAYER_SOLID_DEPTH SURFACE_BINDINGS
 #define SURFACE_LAYER_BEFORE (SURFACE_BINDINGS + 1)  // depth of the layer before
+#define SURFACE_LAYER_THROUGH 7  // location: what it lets through; share of what it sends
 #define SURFACE_SPEC_LAYER_FIRST 20                  // 1: there is none
 
 #endif

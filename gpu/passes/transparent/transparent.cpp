@@ -40,6 +40,7 @@ TransparentTargets make_transparent_targets(const Device& device, MemoryArena& a
     own.other_depth = image("layer_before", VK_FORMAT_D32_SFLOAT,
                             VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    own.through = image("layer_through", VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     own.solid = image("solid", VK_FORMAT_R32G32B32A32_SFLOAT,
                       VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     own.front = image("layers_front", VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT);
@@ -76,7 +77,7 @@ void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTarget
     const SamplerHandle& nearest = targets.nearest;
     FrameTargets& layer = own.layer;
     for (int k = 0; k < layers; ++k) {
-        draw_layer({targets.gbuffer.depth.get(), own.other_depth.get(), k == 0,
+        draw_layer({targets.gbuffer.depth.get(), own.other_depth.get(), own.through.get(), k == 0,
                     more && k + 1 == layers});
         add_clear(graph, own, *layer.accumulated, constants);
         if (parts.split) clear_light_parts(graph, *parts.layer);
@@ -91,7 +92,7 @@ void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTarget
             .bindings = {{TRANSPARENT_OVER_FRAME, frame_binding(constants)},
                          {TRANSPARENT_OVER_DEPTH, sampled(*layer.gbuffer.depth, nearest)},
                          {TRANSPARENT_OVER_LIT, sampled(*layer.accumulated, nearest)},
-                         {TRANSPARENT_OVER_THROUGH, sampled(*layer.gbuffer.baked, nearest)},
+                         {TRANSPARENT_OVER_THROUGH, sampled(*own.through, nearest)},
                          {TRANSPARENT_OVER_MATERIAL, sampled(*layer.gbuffer.material, nearest)},
                          {TRANSPARENT_OVER_NORMALS, sampled(*layer.gbuffer.normals, nearest)},
                          {TRANSPARENT_OVER_EMISSION, sampled(*layer.gbuffer.emission, nearest)},

@@ -16,6 +16,7 @@ namespace petrichor::gpu {
 struct TransparentTargets {
     FrameTargets layer;                     ///< of the layer that is at work
     std::unique_ptr<GpuImage> other_depth;  ///< of the layer before
+    std::unique_ptr<GpuImage> through;      ///< of that layer: SurfaceLayer::through
     std::unique_ptr<GpuImage> solid;        ///< the picture of this sample behind all layers
     std::unique_ptr<GpuImage> front;        ///< light of the layers so far
     std::unique_ptr<GpuImage> left;         ///< what they let through
