@@ -41,6 +41,7 @@ constexpr float kShed = 0.62f;
 constexpr float kSlit_m = 0.05f;       // less of a step than this is not left open
 constexpr float kThinBank_m = 0.02f;   // snow of this depth has no bank ..
 constexpr float kWholeBank_m = 0.05f;  // .. and of this a whole one
+constexpr float kOverCorner = 0.65f;   // of the depth: caps go no lower for a bank
 constexpr float kBelowBank_m = 0.008f;  // caps below a whole bank
 constexpr float kOverCaps_m = 0.002f;  // a bank lies so far over the caps ..
 constexpr float kUnderCaps_m = 0.02f;  // .. and goes so far under them where it ends
@@ -75,7 +76,8 @@ float filled_m(const SnowCaps::Point& p, float depth_m)
     if (p.bank > 0.0f || !(p.fade > 0.0f)) return own;
     // Where a bank is one sheet with what lies beside it, that is below it.
     const float one = p.fade * whole_bank(p, depth_m);
-    return own + one * (of(p.bank_fill_m) - kBelowBank_m - own);
+    // Corners stand out of it with a cap of their own.
+    return own + one * (std::max(of(p.bank_fill_m) - kBelowBank_m, -kOverCorner * depth_m) - own);
 }
 
 // What falls at a point: shoulders of stones, which hold little, are lost below deep snow.

@@ -18,18 +18,20 @@ using glm::vec3;
 using glm::vec4;
 
 constexpr float kWideGround_m2 = 0.6f;  // ground that hangs together and is no larger keeps its shape
-constexpr float kStep_m = 0.012f;       // from cell to cell: lower ones are relief
+constexpr float kStep_m = 0.02f;        // from cell to cell: lower ones are relief
 constexpr float kSteepStep = 0.7f;      // .. and no steeper than this they are slopes
 constexpr float kReach_m = 0.22f;       // so far from a step the sheet reaches
 constexpr float kFade_m = 0.07f;        // .. and goes under the caps along the last of it
+constexpr int kThing = 3;               // cells: what is no wider than twice this is no ground
 constexpr int kJoint = 3;               // cells without ground between ground are a joint
 constexpr float kWidth = 1.6f;          // radius of the circle, over the depth, as that of the caps
 constexpr float kStiff = 0.01f;
 constexpr float kSteepest = 0.87f;      // y of the normal of the smoothed ground: steeper is no place for a bank
 constexpr float kEdge_m = 0.1f;         // from a deep edge: none within this, a whole one from twice as far on
-constexpr float kFine_m = 6.0f;         // as fine as the sheet's cells up to here from an eye, half as fine beyond
+constexpr float kFine_m = 3.0f;         // as fine as the sheet's cells up to here from an eye, half as fine beyond
 constexpr float kOverlap_m = 0.4f;
-constexpr float kFarthest_m = 12.5f;
+constexpr float kFarthest_m = 11.0f;
+constexpr float kOfGround_m = 0.04f;
 constexpr float kHolds = 0.02f;         // share of the depth: less is no ground that snow lies on
 
 // One ground: of each cell the highest layer of ground that hangs together over steps and is wide.
@@ -72,6 +74,7 @@ public:
                 }
             }
         }
+        leave_out_things([&](std::uint32_t layer) { return static_cast<float>(cells[root(layer)]) >= wide; });
         close_joints();
     }
 
@@ -143,6 +146,48 @@ private:
     std::vector<std::uint32_t> top_;
     std::vector<float> heights_;  // what lies in a joint is as high as its stones
 
+    // What is narrower than a few cells and stands over the ground around is a thing on it: the ground goes on below.
+    template <class Wide>
+    void leave_out_things(const Wide& is_wide)
+    {
+        const std::size_t count = top_.size();
+        std::vector<float> own(count, 1.0e9f);
+        for (std::size_t i = 0; i < count; ++i)
+            if (top_[i] != Sheet::kNoLayer) own[i] = sheet_->layers()[top_[i]].height_m;
+        // The lowest around, then the highest of those, along rows and columns; where there is no ground nothing counts.
+        const auto filtered = [&](const std::vector<float>& from, bool lowest) {
+            std::vector<float> rows(count), both(count);
+            const auto pass = [&](const std::vector<float>& in, std::vector<float>& out, int dx, int dz) {
+                for (int z = 0; z < height_; ++z) {
+                    for (int x = 0; x < width_; ++x) {
+                        float best = 1.0e9f;
+                        for (int k = -kThing; k <= kThing; ++k) {
+                            if (!inside(x + k * dx, z + k * dz)) continue;
+                            const float there = in[index(x + k * dx, z + k * dz)];
+                            if (there > 1.0e8f) continue;
+                            best = best > 1.0e8f ? there : lowest ? std::min(best, there) : std::max(best, there);
+                        }
+                        out[index(x, z)] = best;
+                    }
+                }
+            };
+            pass(from, rows, 1, 0);
+            pass(rows, both, 0, 1);
+            return both;
+        };
+        const std::vector<float> opened = filtered(filtered(own, true), false);
+        for (int z = 0; z < height_; ++z) {
+            for (int x = 0; x < width_; ++x) {
+                const std::size_t i = index(x, z);
+                if (top_[i] == Sheet::kNoLayer || !(own[i] - opened[i] > kStep_m)) continue;
+                for (std::uint32_t k = sheet_->first(x, z); k != Sheet::kNoLayer; k = sheet_->layers()[k].next) {
+                    const auto off = [&](std::uint32_t layer) { return std::abs(sheet_->layers()[layer].height_m - opened[i]); };
+                    if (is_wide(k) && off(k) < off(top_[i])) top_[i] = k;
+                }
+            }
+        }
+    }
+
     void close_joints()
     {
         heights_.assign(top_.size(), 0.0f);
@@ -182,7 +227,6 @@ float step_at(const OneGround& ground, int x, int z, float cell_m)
         const float rise = std::abs(ground.height_m(x + apart * way.x, z + apart * way.y) - ground.height_m(x, z));
         if (rise > kHighestStep_m) continue;
         if (rise > kStep_m && rise > kSteepStep * cell_m * static_cast<float>(apart)) step = std::max(step, rise);
-        else if (apart > 1) step = std::max(step, kStep_m);
     }
     return step;
 }
@@ -387,7 +431,13 @@ std::vector<BankPart> lay_banks(SnowCaps& caps, const CutMesh& mesh, const Sheet
         const ivec2 cell = sheet.cell_of(vec2(point.base_m.x, point.base_m.z));
         if (!ground.inside(cell.x, cell.y) || eye_m(point.base_m) > kFarthest_m - kOverlap_m) continue;
         const Sheet::Layer* top = below(cell.x, cell.y);
-        if (top == nullptr || std::abs(top->height_m - point.base_m.y) > kHighestStep_m) continue;
+        // Of that ground, not of what stands on it.
+        bool of_ground = false;
+        for (int n = 0; n < 9 && !of_ground; ++n) {
+            const ivec2 at = cell + ivec2(n % 3 - 1, n / 3 - 1);
+            of_ground = ground.inside(at.x, at.y) && ground.found(at.x, at.y) && std::abs(ground.height_m(at.x, at.y) - point.base_m.y) < kOfGround_m;
+        }
+        if (top == nullptr || !of_ground) continue;
         const std::size_t k = ground.index(cell.x, cell.y);
         const float sheet_lies = (1.0f - shared::smooth_edge(kReach_m - kFade_m, kReach_m, away[k])) *
                                  shared::smooth_edge(kEdge_m, 2.0f * kEdge_m, from_edge[k]);
