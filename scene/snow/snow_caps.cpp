@@ -8,6 +8,7 @@
 
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
+#include "scene/snow/detail/bank.h"
 #include "scene/snow/detail/borders.h"
 #include "scene/snow/detail/settle.h"
 #include "scene/snow/detail/sheet.h"
@@ -265,13 +266,6 @@ std::vector<float> longest_edges_m(const CutMesh& mesh, std::size_t count)
     return longest;
 }
 
-// Swells of a size, as far as edges can carry them: narrower ones would be creases along the triangles.
-float swell(const vec3& at, float size_m, std::uint32_t seed, float edge_m)
-{
-    const float carried = 1.0f - shared::smooth_edge(0.35f * size_m, 0.9f * size_m, edge_m);
-    return 0.5f + carried * (smooth_noise(at, size_m, seed) - 0.5f);
-}
-
 // What of the depth lies at each point.
 // broad: at first what shelter leaves, on any slope.
 void fill_shares(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals, const SnowCapOptions& options)
@@ -323,8 +317,7 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const Grids& grids, const 
             point.gap_m = slot.border->gap_m;
             if (point.slot_m < 1.0e-3f) point.bridge_m = slot.border->out * (0.5f * point.gap_m + 0.01f);
         }
-        point.uneven = 0.78f + 0.3f * swell(at, 1.7f, 11u, longest[number]) +
-                       0.14f * swell(at, 0.43f, 12u, longest[number]);
+        point.uneven = detail::uneven_at(at, longest[number]);
     }
 }
 
@@ -490,7 +483,8 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     const std::vector<detail::Joint> joints = detail::joints_of(caps);
     detail::hold_by_repose(caps, mesh, normals, joints);
     narrow_bridges(caps, joints);
-    detail::fill_relief(caps, mesh, joints, tracer, options);
+    const detail::Sheet sheet = detail::fill_relief(caps, mesh, joints, tracer, options);
+    std::vector<detail::BankPart> banks = detail::lay_banks(caps, mesh, sheet, edges.edges(), options);
     tread(caps, options);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         Primitive& p = mesh.primitives[i];
@@ -520,6 +514,23 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         caps.corner_points.insert(caps.corner_points.end(), mesh.points[i].begin(), mesh.points[i].end());
         p.indices.clear();
         part.source = std::move(p);
+        caps.parts.push_back(std::move(part));
+    }
+    // Banks stand for nothing of the scene: caps lie below them.
+    for (detail::BankPart& bank : banks) {
+        SnowCaps::Part part;
+        part.material = mesh.primitives[bank.primitive].material;
+        part.instance = ground.instances[bank.primitive];
+        part.primitive = ground.numbers[bank.primitive];
+        part.first_index = static_cast<std::uint32_t>(caps.indices.size());
+        part.first_corner = static_cast<std::uint32_t>(caps.corner_points.size());
+        part.index_count = static_cast<std::uint32_t>(bank.source.indices.size());
+        part.below.assign(bank.source.indices.size() / 3, SnowCaps::kUncovered);
+        for (const std::uint32_t corner : bank.source.indices) caps.indices.push_back(part.first_corner + corner);
+        caps.corner_points.insert(caps.corner_points.end(), bank.points.begin(), bank.points.end());
+        bank.source.indices.clear();
+        bank.source.material = part.material;
+        part.source = std::move(bank.source);
         caps.parts.push_back(std::move(part));
     }
     return caps;

@@ -49,6 +49,10 @@ struct SnowCaps {
         std::uint32_t beyond = kNone;  ///< the point on what lies beyond that edge, kNone: nothing near below it
         float low_m = 1.0e9f;         ///< to the nearest edge of a step as low as a board ..
         std::uint32_t below = kNone;  ///< .. and the point down there
+        float bank = 0.0f;            ///< 1: of a bank, which lies over the steps of the caps; 0: of a cap
+        float bank_m = 0.0f;          ///< the highest step below the bank here; 0: there is no bank
+        float fade = 0.0f;            ///< of a bank: 1 where it goes under the caps; of a cap: 1 where a bank lies over it
+        std::array<float, kFills> bank_fill_m{};  ///< of a cap: up to the ground as the bank smooths it
     };
     struct Part {
         std::uint32_t material = 0;

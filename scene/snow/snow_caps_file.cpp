@@ -9,8 +9,8 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x36706163;  // "cap6"
-static_assert(sizeof(SnowCaps::Point) == 24 * sizeof(float), "no padding: bytes are compared");
+constexpr std::uint32_t kMagic = 0x37706163;  // "cap7"
+static_assert(sizeof(SnowCaps::Point) == 31 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
     std::vector<std::byte> bytes;

@@ -10,7 +10,7 @@ namespace petrichor::scene {
 float step_closed(float step_m, float depth_m)
 {
     if (!(step_m < 1.75f * depth_m)) return 0.0f;
-    return 1.0f - shared::smooth_edge(1.0f, 1.75f, step_m / depth_m);
+    return 1.0f - shared::smooth_edge(1.45f, 1.75f, step_m / depth_m);
 }
 
 namespace {
@@ -36,18 +36,48 @@ constexpr float kAtRim_m = 1.0e-3f;
 constexpr float kBankSlope = 1.428f;  // of what leans against a step: moist snow, 55 degrees
 constexpr float kIntoSnow_m = 0.055f; // it ends so deep in the snow at its foot
 constexpr float kMostOut_m = 0.06f;
+// A bank is as high as what the edge above it sheds lets it be: (1 - pi / 4) of the depth squared a metre, at a slope of 0.9.
+constexpr float kShed = 0.62f;
+constexpr float kSlit_m = 0.05f;       // less of a step than this is not left open
+constexpr float kThinBank_m = 0.02f;   // snow of this depth has no bank ..
+constexpr float kWholeBank_m = 0.05f;  // .. and of this a whole one
+constexpr float kOverCorner = 0.65f;   // of the depth: caps go no lower for a bank
+constexpr float kBelowBank_m = 0.008f;  // caps below a whole bank
+constexpr float kOverCaps_m = 0.002f;  // a bank lies so far over the caps ..
+constexpr float kUnderCaps_m = 0.02f;  // .. and goes so far under them where it ends
+
+// Of a bank: how much lower it lies than a sheet that closes the step.
+float bank_low_m(const SnowCaps::Point& p, float depth_m)
+{
+    const float low = std::max(0.5f * p.bank_m - kShed * depth_m, 0.0f);
+    return low * shared::smooth_edge(0.0f, kSlit_m, low);
+}
+
+// Share of the bank over a cap that is one sheet with what lies beside it.
+float whole_bank(const SnowCaps::Point& p, float depth_m)
+{
+    return (1.0f - shared::smooth_edge(0.0f, kSlit_m, bank_low_m(p, depth_m))) * shared::smooth_edge(kThinBank_m, kWholeBank_m, depth_m);
+}
 
 // Deep snow forgets the ground below it.
 float filled_m(const SnowCaps::Point& p, float depth_m)
 {
-    float from_m = 0.0f, from = 0.0f;
-    for (std::size_t k = 0; k < SnowCaps::kFills; ++k) {
-        const float to_m = SnowCaps::kFillDepths_m[k];
-        if (depth_m < to_m) return from + (p.fill_m[k] - from) * (depth_m - from_m) / (to_m - from_m);
-        from_m = to_m;
-        from = p.fill_m[k];
-    }
-    return from;
+    const auto of = [&](const std::array<float, SnowCaps::kFills>& fills) {
+        float from_m = 0.0f, from = 0.0f;
+        for (std::size_t k = 0; k < SnowCaps::kFills; ++k) {
+            const float to_m = SnowCaps::kFillDepths_m[k];
+            if (depth_m < to_m) return from + (fills[k] - from) * (depth_m - from_m) / (to_m - from_m);
+            from_m = to_m;
+            from = fills[k];
+        }
+        return from;
+    };
+    const float own = of(p.fill_m);
+    if (p.bank > 0.0f || !(p.fade > 0.0f)) return own;
+    // Where a bank is one sheet with what lies beside it, that is below it.
+    const float one = p.fade * whole_bank(p, depth_m);
+    // Corners stand out of it with a cap of their own.
+    return own + one * (std::max(of(p.bank_fill_m) - kBelowBank_m, -kOverCorner * depth_m) - own);
 }
 
 // What falls at a point: shoulders of stones, which hold little, are lost below deep snow.
@@ -93,11 +123,19 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     shape.thickness_m.reserve(count);
     shape.deep_m.reserve(count);
     // As if nothing lay beyond the edges.
+    // A bank needs no edges: it lies where deep snow closes the steps below it, and goes under the caps where it does not.
+    const auto bank_m = [](const SnowCaps::Point& p, float fallen_m) {
+        const float thin = 1.0f - shared::smooth_edge(kThinBank_m, kWholeBank_m, fallen_m);
+        return kOverCaps_m - p.fade * kUnderCaps_m - bank_low_m(p, fallen_m) - thin * (fallen_m + kUnderCaps_m);
+    };
     std::vector<float> fallen(count), closing(count), bare(count), top(count);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
         fallen[i] = fallen_m(p, depth_m[i]);
-        const float closed = closing[i] = p.wide * step_closed(p.drop_m, fallen[i]);
+        if (p.bank > 0.0f) continue;
+        // Below a bank the caps close where it does.
+        const float alone = p.wide * step_closed(p.drop_m, fallen[i]);
+        const float closed = closing[i] = p.fade > 0.0f ? glm::mix(alone, whole_bank(p, fallen[i]), p.fade) : alone;
         const float open = lesser(std::min(fallen[i], kMostOverWidth * p.support_m), p.most_m);
         const float held = open + closed * (fallen[i] - open);
         const float round = p.edge_m < held ? rounded(p.edge_m / width_m(p, held)) : 1.0f;
@@ -107,6 +145,15 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     std::vector<std::uint8_t> sunk_rim(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
+        if (p.bank > 0.0f) {
+            const float over = fallen[i] + filled_m(p, fallen[i]) + bank_m(p, fallen[i]);
+            const float thickness = std::max(std::min(over, fallen[i]), 0.0f);
+            shape.positions.push_back(p.base_m + vec3(0.0f, over, 0.0f));
+            shape.thickness_m.push_back(thickness);
+            shape.deep_m.push_back(fallen[i]);
+            shape.thickest_m = std::max(shape.thickest_m, thickness);
+            continue;
+        }
         // How far what lies beyond the edge reaches over it.
         const float beyond = p.beyond != SnowCaps::kNone ? top[p.beyond] - p.base_m.y : -1.0e9f;
         const float over = std::clamp(beyond, 0.0f, fallen[i]);

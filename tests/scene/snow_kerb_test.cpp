@@ -109,7 +109,7 @@ constexpr Kerb kKerbs[] = {{"left", -1.0f, 4.6f, 6.5f}, {"right", 1.0f, 2.9f, 6.
 // No stone is seen between the snow on a kerb and that beside it, by someone who stands in the street.
 TEST(SnowOnKerbs, LeavesNoStoneBetween)
 {
-    for (const float depth : {0.15f, 0.2f, 0.3f}) {
+    for (const float depth : {0.12f, 0.15f, 0.2f, 0.3f}) {
         const Snowed snowed(street().scene, street().caps, depth);
         for (const Kerb& kerb : kKerbs) {
             int all = 0, stone = 0;
@@ -129,7 +129,7 @@ TEST(SnowOnKerbs, LeavesNoStoneBetween)
 // One sheet: seen from above it has no steps, and hardly a crease.
 TEST(SnowOnKerbs, IsOneSheet)
 {
-    for (const float depth : {0.2f, 0.3f}) {
+    for (const float depth : {0.12f, 0.2f, 0.3f}) {
         const Snowed snowed(street().scene, street().caps, depth);
         for (const Kerb& kerb : kKerbs) {
             int all = 0, steps = 0, creases = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
 
 namespace petrichor::scene::detail {
@@ -11,7 +12,6 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-constexpr std::uint32_t kNoLayer = 0xffffffffu;
 constexpr double kMostCells = 3.0e6;
 constexpr float kWidth = 1.6f;     // radius of the circle, over the depth
 constexpr float kUnder_m = 0.01f;  // snow of what lies below something goes so far under the snow on that
@@ -21,7 +21,7 @@ constexpr float kShelter_m = SnowCaps::kFillDepths_m[2];  // around which shelte
 constexpr float kBroad_m = SnowCaps::kFillDepths_m[3];  // whose surface tells how steep deep snow is
 constexpr float kBuries_m = 0.08f;  // what lies so far over something all around leaves it no snow
 constexpr float kRelief_m = 0.02f;
-constexpr float kMostFill = 0.6f;   // of the depth, up or down
+constexpr float kMostFill = 0.9f;   // of the depth, up or down
 constexpr float kNear_m = 14.0f;
 constexpr float kCell_m = 0.025f;
 constexpr float kFarCell_m = 0.1f;
@@ -108,7 +108,8 @@ Sheet::Sheet(const SnowCaps& caps, const CutMesh& mesh, float cell_m, const std:
                     const float b0 = 1.0f - b1 - b2;
                     std::uint32_t& head = first_[static_cast<std::size_t>(z) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
                     layers_.push_back({b0 * t[0]->base_m.y + b1 * t[1]->base_m.y + b2 * t[2]->base_m.y,
-                                       b0 * t[0]->broad + b1 * t[1]->broad + b2 * t[2]->broad, head});
+                                       b0 * t[0]->broad + b1 * t[1]->broad + b2 * t[2]->broad, head, static_cast<std::uint32_t>(i),
+                                       static_cast<std::uint32_t>(k)});
                     head = static_cast<std::uint32_t>(layers_.size() - 1);
                 }
             }
@@ -174,7 +175,7 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
     return {own_m + height - glm::dot(slope, middle), slope / radius, open / weight, bare / weight, weight / all};
 }
 
-void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& joints, const Tracer& tracer, const SnowCapOptions& options)
+Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& joints, const Tracer& tracer, const SnowCapOptions& options)
 {
     const auto eye_m = [&](const vec3& p) {
         float nearest = options.eyes_m.empty() ? 0.0f : 1.0e30f;
@@ -213,6 +214,23 @@ void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& 
         point.share *= seen;
         point.broad = seen * broad;
     }
+    return near;
+}
+
+namespace {
+
+// Swells of a size: narrower than the edges can carry they would be creases along the triangles.
+float swell(const vec3& at, float size_m, std::uint32_t seed, float edge_m)
+{
+    const float carried = 1.0f - shared::smooth_edge(0.35f * size_m, 0.9f * size_m, edge_m);
+    return 0.5f + carried * (shared::tileable_noise(vec2(at.x, at.z) / size_m, 1 << 20, seed) - 0.5f);
+}
+
+}  // namespace
+
+float uneven_at(const vec3& place, float edge_m)
+{
+    return 0.78f + 0.3f * swell(place, 1.7f, 11u, edge_m) + 0.14f * swell(place, 0.43f, 12u, edge_m);
 }
 
 }  // namespace petrichor::scene::detail
