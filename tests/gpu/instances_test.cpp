@@ -47,20 +47,34 @@ Material cut_out()
     return m;
 }
 
+// Solid, let through by chance, in layers; dry, and in rain, where depth comes first. Some look otherwise.
 TEST_F(Instances, OneDrawOfManyShowsWhatManyDrawsShow)
 {
-    for (const Material& material : {plain_material(glm::vec3(0.6f, 0.4f, 0.3f)), cut_out()}) {
+    struct Way {
+        Material material;
+        int layers = 0;
+        float rain = 0.0f;
+    };
+    const Material plain = plain_material(glm::vec3(0.6f, 0.4f, 0.3f));
+    for (const Way& way : {Way{plain}, Way{plain, 0, 0.8f}, Way{cut_out()}, Way{cut_out(), 3}}) {
+        const auto field_of = [&](bool own_meshes) {
+            Scene scene = field(way.material, own_meshes);
+            for (std::size_t i = 0; i < scene.instances.size(); i += 3) scene.instances[i].look.color = glm::vec3(0.1f, 0.2f, 0.9f);
+            return scene;
+        };
         for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
             Frame frame;
             frame.camera = look({3, 5, 6}, {0, 0, 0});
             frame.settings.width = frame.settings.height = 96;
             frame.settings.samples = 2;
             frame.settings.surface_path = path;
-            frame.settings.transparent_layers = 0;  // let through by chance: each has its own
+            frame.settings.transparent_layers = way.layers;  // 0: let through by chance: each has its own
+            frame.weather.rain = way.rain;
+            frame.weather.film_smoothness = frame.weather.film_albedo = way.rain;
             frame.settings.aovs = {"normal", "depth"};
-            renderer->load(field(material, true), {});
+            renderer->load(field_of(true), {});
             const RenderResult many = renderer->render(frame);
-            renderer->load(field(material, false), {});
+            renderer->load(field_of(false), {});
             const RenderResult one = renderer->render(frame);
             EXPECT_EQ(one.beauty, many.beauty);
             for (std::size_t i = 0; i < one.aovs.size(); ++i)
