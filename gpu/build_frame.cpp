@@ -261,12 +261,8 @@ std::shared_ptr<const SeenDraws> seen_triangles(const Frame& frame, const Sun& s
     const auto mark = [&](const Draw& draw) {
         alone[static_cast<std::size_t>(&draw - r.scene->draws().data())] = true;
     };
-    if (r.resolve) {
-        for (const DrawRun& run : visible_runs(*r.scene, c.world_to_clip, c.camera_m))
-            if (run.count == 1) mark(*run.first);
-    } else {
-        for (const Draw* draw : visible_draws(*r.scene, c.world_to_clip, c.camera_m)) mark(*draw);
-    }
+    for (const DrawRun& run : visible_runs(*r.scene, c.world_to_clip, c.camera_m))
+        if (run.count == 1) mark(*run.first);
     return r.triangles->list(*r.scene, view, false, [&](const Draw& draw) {
         return alone[static_cast<std::size_t>(&draw - r.scene->draws().data())];
     });

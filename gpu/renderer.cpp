@@ -539,6 +539,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
             prepare_resolve(set, frame);
         }
         triangles.reset(*scene);
+        scene->update_draw_rows(device);
         FrameGraph graph = build_frame(frame, sun, resources, aov_groups, range, result.falling);
         graph_text += graph.describe();
         for (const PassTime& pass : graph.execute(device, pipelines, descriptors))

@@ -51,6 +51,36 @@ shared::DrawConstants draw_constants(const Draw& draw)
     return c;
 }
 
+void GpuScene::update_draw_rows(const Device& device)
+{
+    if (rows_poses_ == poses_ || (rows_poses_ && !has_runs_)) return;
+    rows_poses_ = poses_;
+    std::vector<shared::DrawConstants> rows;
+    if (!draw_rows_) {
+        for (std::size_t begin = 0, end = 0; begin < draws_.size(); begin = end) {
+            // Whatever a moment shows of them.
+            const auto one_shape = [&](const Draw& d) {
+                return d.first_index == draws_[begin].first_index && d.vertex_offset == draws_[begin].vertex_offset &&
+                       d.material == draws_[begin].material;
+            };
+            for (end = begin + 1; end < draws_.size() && one_shape(draws_[end]);) ++end;
+            has_runs_ = has_runs_ || end - begin >= kLeastRun;
+        }
+    }
+    for (const Draw& draw : draws_) {
+        if (has_runs_) rows.push_back(draw_constants(draw));
+    }
+    if (rows.empty()) rows.emplace_back();
+    if (!draw_rows_) {
+        draw_rows_ = arena_.buffer(
+            {.name = "draw_rows",
+             .size = rows.size() * sizeof(shared::DrawConstants),
+             .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+             .texel_format = VK_FORMAT_R32G32B32A32_UINT});
+    }
+    upload_buffer(device, *draw_rows_, std::as_bytes(std::span(rows)));
+}
+
 bool has_holes(const GpuScene& scene, const Draw& draw)
 {
     const GpuMaterial& material = scene.materials()[draw.material];

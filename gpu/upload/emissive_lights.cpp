@@ -17,6 +17,7 @@ namespace petrichor::gpu {
 namespace {
 
 constexpr float kDark = 0.02f;  // of the brightest radiance of a material
+constexpr float kFilled = 0.6f;  // of their common rectangle, by panes of one window
 constexpr float kFlat = 0.6f;  // |sum of area vectors| over the area: of a pane with thin edges more, of a dome half
 constexpr std::size_t kMost = 256;
 constexpr float kFaint = 1e-3f;  // of the flux of all
@@ -186,7 +187,51 @@ std::vector<Patch> connected(const std::vector<Facet>& facets)
     return patches;
 }
 
-// Panes of one window: flat, in one plane, not farther apart than half of the smaller one's size.
+// Where a flat patch lies in its plane: unit axes along its longest extent and across, and how far it reaches.
+struct InPlane {
+    glm::vec3 a{0.0f}, b{0.0f};
+    glm::vec2 reach_m{0.0f};
+};
+
+InPlane in_plane(const Patch& patch)
+{
+    const glm::vec3 n = glm::normalize(patch.vector);
+    const glm::vec3 helper = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::vec3 u = glm::normalize(glm::cross(helper, n));
+    const glm::vec3 v = glm::cross(n, u);
+    // Second moments of the area turn the axes the way the patch lies: of a triangle a twelfth of
+    // the sum over its corners and their sum.
+    float uu = 0.0f, uv = 0.0f, vv = 0.0f;
+    for (const Facet* f : patch.facets) {
+        const float weight = glm::length(f->area);
+        glm::vec2 sum(0.0f);
+        for (int k = 0; k < 4; ++k) {
+            glm::vec2 p = sum;
+            if (k < 3) {
+                const glm::vec3 offset = f->corners[k] - patch.centre;
+                p = {glm::dot(offset, u), glm::dot(offset, v)};
+                sum += p;
+            }
+            uu += weight * p.x * p.x;
+            uv += weight * p.x * p.y;
+            vv += weight * p.y * p.y;
+        }
+    }
+    const float turn = 0.5f * std::atan2(2.0f * uv, uu - vv);
+    InPlane lies;
+    lies.a = std::cos(turn) * u + std::sin(turn) * v;
+    lies.b = glm::cross(n, lies.a);
+    for (const Facet* f : patch.facets) {
+        for (const glm::vec3& corner : f->corners) {
+            lies.reach_m = glm::max(lies.reach_m, glm::abs(glm::vec2(glm::dot(corner - patch.centre, lies.a),
+                                                                     glm::dot(corner - patch.centre, lies.b))));
+        }
+    }
+    return lies;
+}
+
+// Panes of one window: flat, in one plane, not farther apart than half of the smaller one's size, with so little
+// between them that both are one rectangle.
 bool belong_together(const Patch& a, const Patch& b)
 {
     if (!a.flat() || !b.flat()) return false;
@@ -195,7 +240,12 @@ bool belong_together(const Patch& a, const Patch& b)
     const float size = std::min(glm::length(a.high - a.low), glm::length(b.high - b.low));
     if (std::abs(glm::dot(n, b.centre - a.centre)) > 0.1f * size) return false;
     const glm::vec3 gap = glm::max(glm::max(a.low - b.high, b.low - a.high), glm::vec3(0.0f));
-    return glm::length(gap) < 0.5f * size;
+    if (!(glm::length(gap) < 0.5f * size)) return false;
+    std::vector<const Facet*> both = a.facets;
+    both.insert(both.end(), b.facets.begin(), b.facets.end());
+    const Patch joined = patch_of(both);
+    const InPlane lies = in_plane(joined);
+    return glm::length(joined.vector) > kFilled * 4.0f * lies.reach_m.x * lies.reach_m.y;
 }
 
 std::vector<Patch> merged(const std::vector<Patch>& patches)
@@ -219,49 +269,18 @@ std::vector<Patch> merged(const std::vector<Patch>& patches)
     return result;
 }
 
-// A rectangle in the patch's plane: along its longest extent, in the shape of its extents, with its
-// area.
+// A rectangle in the patch's plane, in the shape of its extents, with its area.
 Light rectangle_of(const Patch& patch, bool both_sides)
 {
     Light light;
     light.kind = LightKind::Rectangle;
     light.direction = glm::normalize(patch.vector);
     light.both_sides = both_sides;
-    const glm::vec3 n = light.direction;
-    const glm::vec3 helper = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    const glm::vec3 u = glm::normalize(glm::cross(helper, n));
-    const glm::vec3 v = glm::cross(n, u);
-    // Second moments of the area turn the axes the way the patch lies: of a triangle a twelfth of
-    // the sum over its corners and their sum.
-    float uu = 0.0f, uv = 0.0f, vv = 0.0f;
-    for (const Facet* f : patch.facets) {
-        const float weight = glm::length(f->area);
-        glm::vec2 sum(0.0f);
-        for (int k = 0; k < 4; ++k) {
-            glm::vec2 p = sum;
-            if (k < 3) {
-                const glm::vec3 offset = f->corners[k] - patch.centre;
-                p = {glm::dot(offset, u), glm::dot(offset, v)};
-                sum += p;
-            }
-            uu += weight * p.x * p.x;
-            uv += weight * p.x * p.y;
-            vv += weight * p.y * p.y;
-        }
-    }
-    const float turn = 0.5f * std::atan2(2.0f * uv, uu - vv);
-    const glm::vec3 a = std::cos(turn) * u + std::sin(turn) * v;
-    const glm::vec3 b = glm::cross(n, a);
-    glm::vec2 reach(0.0f);
-    for (const Facet* f : patch.facets) {
-        for (const glm::vec3& corner : f->corners) {
-            reach = glm::max(reach, glm::abs(glm::vec2(glm::dot(corner - patch.centre, a),
-                                                       glm::dot(corner - patch.centre, b))));
-        }
-    }
+    const InPlane lies = in_plane(patch);
+    const glm::vec2 reach = lies.reach_m;
     const float scale = std::sqrt(glm::length(patch.vector) / std::max(4.0f * reach.x * reach.y, 1e-12f));
-    light.half_u_m = a * (reach.x * scale);
-    light.half_v_m = b * (reach.y * scale);
+    light.half_u_m = lies.a * (reach.x * scale);
+    light.half_v_m = lies.b * (reach.y * scale);
     return light;
 }
 

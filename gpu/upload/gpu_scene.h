@@ -145,6 +145,10 @@ public:
     const std::vector<MarchedShape>& shapes() const { return shapes_; }  ///< `rest`: of the frame
     /// Something may be elsewhere at another moment.
     bool moves() const { return rig_ != nullptr || !waving_.empty(); }
+    /// Constants of all draws, of those that one call may draw at once (gpu/passes/surface/surface_draws_io.h).
+    GpuBuffer& draw_rows() const { return *draw_rows_; }
+    /// Brings them to where things are. The device must not be drawing.
+    void update_draw_rows(const Device& device);
     /// Grows whenever something may have moved.
     std::uint64_t poses() const { return poses_; }
 
@@ -203,6 +207,9 @@ private:
     std::unique_ptr<GpuBuffer> looks_;
     std::unique_ptr<GpuBuffer> layers_;
     std::unique_ptr<GpuBuffer> instance_looks_;
+    std::unique_ptr<GpuBuffer> draw_rows_;
+    std::optional<std::uint64_t> rows_poses_;  // that they are of
+    bool has_runs_ = false;                    // some draws are alike
     std::uint32_t layers_used_ = 0;
     std::vector<std::unique_ptr<GpuImage>> images_;
     std::unique_ptr<GpuImage> white_;

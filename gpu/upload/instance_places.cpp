@@ -12,12 +12,16 @@ namespace {
 constexpr std::size_t kMapsAFrame = 32;  // cascades, the sky, the rain, some faces of lamps
 constexpr std::size_t kMostPlaces = 512u << 10;
 
-std::size_t instances_in_runs(const std::vector<Draw>& draws)
+// Of a material with holes in a relief twice: its casters are asked in the world, too.
+std::size_t places_in_runs(const GpuScene& scene)
 {
+    const std::vector<Draw>& draws = scene.draws();
     std::size_t all = 0;
     for (std::size_t begin = 0, end = 0; begin < draws.size(); begin = end) {
         for (end = begin + 1; end < draws.size() && same_shape(draws[begin], draws[end]);) ++end;
-        if (end - begin >= kLeastRun) all += end - begin;
+        const GpuMaterial& material = scene.materials()[draws[begin].material];
+        const std::size_t each = material.masked && material.parallax != PARALLAX_NONE ? 2 : 1;
+        if (end - begin >= kLeastRun) all += each * (end - begin);
     }
     return all;
 }
@@ -37,7 +41,7 @@ void InstancePlaces::reset(const GpuScene& scene)
     scene_ = &scene;
     places_ = nullptr;
     arena_ = nullptr;
-    capacity_ = std::min<std::size_t>({kMapsAFrame * instances_in_runs(scene.draws()), kMostPlaces,
+    capacity_ = std::min<std::size_t>({kMapsAFrame * places_in_runs(scene), kMostPlaces,
                                        device_->limits().maxTexelBufferElements / 4});
     if (capacity_ == 0) return;
     arena_ = std::make_unique<MemoryArena>(*device_);

@@ -47,20 +47,34 @@ Material cut_out()
     return m;
 }
 
+// Solid, let through by chance, in layers; dry, and in rain, where depth comes first. Some look otherwise.
 TEST_F(Instances, OneDrawOfManyShowsWhatManyDrawsShow)
 {
-    for (const Material& material : {plain_material(glm::vec3(0.6f, 0.4f, 0.3f)), cut_out()}) {
+    struct Way {
+        Material material;
+        int layers = 0;
+        float rain = 0.0f;
+    };
+    const Material plain = plain_material(glm::vec3(0.6f, 0.4f, 0.3f));
+    for (const Way& way : {Way{plain}, Way{plain, 0, 0.8f}, Way{cut_out()}, Way{cut_out(), 3}}) {
+        const auto field_of = [&](bool own_meshes) {
+            Scene scene = field(way.material, own_meshes);
+            for (std::size_t i = 0; i < scene.instances.size(); i += 3) scene.instances[i].look.color = glm::vec3(0.1f, 0.2f, 0.9f);
+            return scene;
+        };
         for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
             Frame frame;
             frame.camera = look({3, 5, 6}, {0, 0, 0});
             frame.settings.width = frame.settings.height = 96;
             frame.settings.samples = 2;
             frame.settings.surface_path = path;
-            frame.settings.transparent_layers = 0;  // let through by chance: each has its own
+            frame.settings.transparent_layers = way.layers;  // 0: let through by chance: each has its own
+            frame.weather.rain = way.rain;
+            frame.weather.film_smoothness = frame.weather.film_albedo = way.rain;
             frame.settings.aovs = {"normal", "depth"};
-            renderer->load(field(material, true), {});
+            renderer->load(field_of(true), {});
             const RenderResult many = renderer->render(frame);
-            renderer->load(field(material, false), {});
+            renderer->load(field_of(false), {});
             const RenderResult one = renderer->render(frame);
             EXPECT_EQ(one.beauty, many.beauty);
             for (std::size_t i = 0; i < one.aovs.size(); ++i)
@@ -159,6 +173,64 @@ TEST_F(Instances, OfOneShapeAreOneRunInDepthMaps)
         EXPECT_EQ(apart.single.size(), 108u);
         EXPECT_TRUE(apart.runs.empty());
     }
+}
+
+// A lattice with holes that lie in a relief, as its casters are asked: many draws of one, one draw of many.
+TEST_F(Instances, HolesInAReliefThrowTheSameShadows)
+{
+    Material m = plain_material(glm::vec3(0.6f, 0.4f, 0.3f));
+    m.base_color_texture.texture = 0;
+    m.alpha_mode = AlphaMode::Mask;
+    m.double_sided = true;
+    m.weather.height.texture = 1;
+    m.weather.height_scale_m = 0.2f;
+    m.weather.parallax = scene::Parallax::Occlusion;
+    const auto texture = [](auto texel) {
+        Texture t;
+        t.name = "made up";
+        t.format = TexelFormat::Rgba8Unorm;
+        t.width = t.height = 16;
+        t.mips.emplace_back();
+        for (int y = 0; y < 16; ++y) {
+            for (int x = 0; x < 16; ++x) {
+                for (int c = 0; c < 4; ++c) t.mips[0].push_back(static_cast<std::byte>(texel(x, y, c)));
+            }
+        }
+        return t;
+    };
+    const std::vector<Texture> textures{
+        texture([](int x, int y, int c) { return c == 3 && (x / 4 + y / 4) % 2 == 0 ? 0 : 255; }),
+        texture([](int x, int, int) { return x < 8 ? 0 : 255; })};
+    const auto lit = [&](bool own_meshes, bool lamp) {
+        Scene scene = field(m, own_meshes);
+        scene.materials.push_back(plain_material(glm::vec3(0.8f)));
+        scene.meshes.push_back({"floor", {quad({-5, -0.5f, 5}, {10, 0, 0}, {0, 0, -10}, 1)}});
+        scene.instances.push_back({"floor", static_cast<std::uint32_t>(scene.meshes.size() - 1), glm::mat4(1.0f)});
+        renderer->load(scene, textures);
+        Frame frame;
+        frame.camera = look({3, 5, 6}, {0, 0, 0});
+        frame.settings.width = frame.settings.height = 128;
+        frame.settings.samples = 1;
+        frame.sky.sun_elevation_rad = lamp ? -1.0f : 0.7f;
+        if (lamp) {
+            Light light;
+            light.position_m = {2, 4, 1};
+            light.intensity = 1.0e5f;
+            frame.extra_lights = {light};
+        }
+        return renderer->render(frame).beauty;
+    };
+    for (const bool lamp : {false, true}) EXPECT_EQ(lit(false, lamp), lit(true, lamp)) << lamp;
+
+    renderer.reset();  // its device is not needed
+    const Device device(RendererOptions{.device = "", .validation = true});
+    SeenTriangles triangles(device);
+    const GpuScene one(device, field(m, false), textures);
+    triangles.reset(one);
+    const Casters together =
+        casters_in(triangles, one, glm::scale(glm::mat4(1.0f), glm::vec3(0.05f)), 256, Falls::Light);
+    EXPECT_TRUE(together.single.empty());
+    EXPECT_EQ(together.runs.size(), 6u);
 }
 
 }  // namespace

@@ -212,13 +212,6 @@ TEST(EmissiveLights, PanesOfAWindowAreOneAndWindowsApartAreTwo)
                 1e-3f);
 }
 
-std::vector<Primitive> box_faces(float h, float d)
-{
-    return {quad({-h, -h, d}, {2 * h, 0, 0}, {0, 2 * h, 0}),   quad({h, -h, d}, {0, 0, -2 * d}, {0, 2 * h, 0}),
-            quad({-h, -h, -d}, {0, 0, 2 * d}, {0, 2 * h, 0}),  quad({-h, h, d}, {2 * h, 0, 0}, {0, 0, -2 * d}),
-            quad({-h, -h, -d}, {2 * h, 0, 0}, {0, 0, 2 * d}),  quad({h, -h, -d}, {-2 * h, 0, 0}, {0, 2 * h, 0})};
-}
-
 Primitive joined(std::span<const Primitive> faces)
 {
     Primitive box;
@@ -229,6 +222,25 @@ Primitive joined(std::span<const Primitive> faces)
         for (const std::uint32_t k : face.indices) box.indices.push_back(first + k);
     }
     return box;
+}
+
+// Near enough to be one, but not one rectangle: a door and a low window beside it.
+TEST(EmissiveLights, PanesThatMakeNoRectangleStayApart)
+{
+    const Primitive both[] = {quad({0, 0, 0}, {0.8f, 0, 0}, {0, 2.2f, 0}), quad({1.3f, 1.2f, 0}, {1.6f, 0, 0}, {0, 0.5f, 0})};
+    const auto lights = emissive_lights(glowing({joined(both)}, 40.0f), {});
+    ASSERT_EQ(lights.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const float longer = std::max(glm::length(lights[i].half_u_m), glm::length(lights[i].half_v_m));
+        EXPECT_NEAR(longer, i == 0 ? 1.1f : 0.8f, 1e-3f);
+    }
+}
+
+std::vector<Primitive> box_faces(float h, float d)
+{
+    return {quad({-h, -h, d}, {2 * h, 0, 0}, {0, 2 * h, 0}),   quad({h, -h, d}, {0, 0, -2 * d}, {0, 2 * h, 0}),
+            quad({-h, -h, -d}, {0, 0, 2 * d}, {0, 2 * h, 0}),  quad({-h, h, d}, {2 * h, 0, 0}, {0, 0, -2 * d}),
+            quad({-h, -h, -d}, {2 * h, 0, 0}, {0, 0, 2 * d}),  quad({h, -h, -d}, {-2 * h, 0, 0}, {0, 2 * h, 0})};
 }
 
 // A pane with edges of 5 cm and no back is what its front is.
@@ -344,6 +356,57 @@ TEST_F(LampTest, AWindowStandsInFloorsOfAnySmoothness)
     }
     // Without the picture they stand there all the same.
     EXPECT_GT(mirrored(0.2f, false), 0.5f * smooth);
+}
+
+// A pane that glows lights floors of any roughness as a lamp of its size and radiance does, which is held to sums
+// over the lobe (area_lights_test): highlights included, stretched towards the eye.
+TEST_F(LampTest, APaneIsMirroredAsTheRectangleThatItIs)
+{
+    const float radiance = 50.0f;
+    Material glow = plain_material(glm::vec3(0.0f));
+    glow.emissive = glm::vec3(radiance);
+    Frame frame;
+    frame.camera = look({0, 1, 3}, {0, 0, 0}, 0.9f);
+    frame.settings.width = 96;
+    frame.settings.height = 64;
+    frame.settings.samples = 1;
+    frame.settings.exposure = 1.0f;
+    frame.settings.draw_sky = false;
+    frame.settings.reflections = false;
+    frame.sky.sun_illuminance = 0.0f;
+    frame.settings.image_based_light = false;
+    frame.settings.lamp_shadows = 0;
+    frame.settings.least_lux = 1.0e-4f;
+    const Primitive floor = quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8});
+    for (const float metallic : {0.0f, 1.0f}) {
+        for (const float roughness : {0.15f, 0.3f, 0.5f, 0.8f}) {
+            const Material ground = plain_material(glm::vec3(0.8f), roughness, metallic);
+            renderer->load(scene_of({floor, quad({-0.5f, 0.3f, -1}, {1, 0, 0}, {0, 0.6f, 0}, 1)}, {ground, glow}), {});
+            frame.extra_lights.clear();
+            const RenderResult pane = renderer->render(frame);
+            renderer->load(scene_of({floor}, {ground}), {});
+            Light lamp;
+            lamp.kind = LightKind::Rectangle;
+            lamp.shaped = true;
+            lamp.position_m = {0, 0.6f, -1};
+            lamp.direction = {0, 0, 1};
+            lamp.half_u_m = {0.5f, 0, 0};
+            lamp.half_v_m = {0, 0.3f, 0};
+            lamp.intensity = radiance;
+            frame.extra_lights = {lamp};
+            const RenderResult by_lamp = renderer->render(frame);
+            float brightest = 0.0f, apart = 0.0f;
+            for (int y = 36; y < 64; ++y) {
+                for (int x = 0; x < 96; ++x) {
+                    const float a = pixel(pane, x, y).g, b = pixel(by_lamp, x, y).g;
+                    brightest = std::max(brightest, b);
+                    apart = std::max(apart, std::abs(a - b));
+                }
+            }
+            ASSERT_GT(brightest, 0.3f);
+            EXPECT_LT(apart, 0.01f * brightest) << roughness << " " << metallic;
+        }
+    }
 }
 
 }  // namespace

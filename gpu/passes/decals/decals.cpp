@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "gpu/passes/surface/surface_draws_io.h"
 #include "gpu/passes/surface/surface_io.h"
 #include "gpu/passes/surface_resolve/surface_resolve_io.h"
 #include "gpu/upload/draw.h"
@@ -21,7 +22,7 @@ constexpr int kSpecialized[] = {
     SURFACE_SPEC_LAYER_ROLES_C,                        SURFACE_SPEC_FALLS,
     DECAL_SPEC_WEATHER,    DECAL_SPEC_EMISSION,        RESOLVE_SPEC_WEATHER,
     RESOLVE_SPEC_EMISSION, RESOLVE_SPEC_BAKED,         RESOLVE_SPEC_PAYLOAD,
-    RESOLVE_SPEC_SHAPES,   RESOLVE_SPEC_IN_WORLD};
+    RESOLVE_SPEC_SHAPES,   RESOLVE_SPEC_IN_WORLD,      SURFACE_SPEC_INSTANCED};
 constexpr bool all_differ()
 {
     for (std::size_t i = 0; i < std::size(kSpecialized); ++i) {
@@ -154,7 +155,8 @@ void add_decals(FrameGraph& graph, FrameTargets& targets, DecalTargets& own, con
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
                       {SURFACE_SHELTER, texels(*depth_maps.sky_rows)},
                       {DECAL_DEPTH, sampled(*g.depth, targets.nearest)},
-                      {DECAL_NORMALS, sampled(*g.normals, targets.nearest)}};
+                      {DECAL_NORMALS, sampled(*g.normals, targets.nearest)},
+                      {SURFACE_DRAWS, texels(scene.draw_rows())}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     Attachment emission(*g.emission);
     emission.keep = parts.emission;

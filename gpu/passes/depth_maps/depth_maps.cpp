@@ -88,6 +88,9 @@ Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::m
         if (casters.places && alike.size() >= kLeastRun) {
             at.clear();
             for (const Draw* draw : alike) at.push_back(clip_from_world * draw->to_world);
+            if (holes_in_relief(scene.materials()[alike[0]->material])) {
+                for (const Draw* draw : alike) at.push_back(draw->to_world);
+            }
             first = places.add(at);
         }
         if (first) {
@@ -99,7 +102,7 @@ Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::m
     };
     for (const Draw& draw : scene.draws()) {
         if (!wanted(draw)) continue;
-        const bool apart = listed(draw) || holes_in_relief(scene.materials()[draw.material]);
+        const bool apart = listed(draw);
         if (!alike.empty() && (apart || !same_shape(*alike[0], draw))) finish();
         if (apart) {
             casters.single.push_back(&draw);
@@ -177,15 +180,20 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     plain.sets = {{VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER}};
     masked.vertex = "depth_masked_run.vert";
     masked.sets.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
+    relief.vertex = "depth_relief_run.vert";
+    relief.sets.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
     for (const Casters::Run& run : casters.runs) {
         const GpuMaterial& material = scene.materials()[run.first->material];
         const bool holes = material.masked || material.blended;
         vertices.bind(!holes);
-        const Pipeline& wanted = pass.pipelines().graphics(holes ? masked : plain);
+        const bool deep = holes_in_relief(material);
+        if (deep) relief.specialization.back().value = material.parallax;
+        const Pipeline& wanted = pass.pipelines().graphics(deep ? relief : holes ? masked : plain);
         pass.bind(wanted);
+        if (deep) pass.push(shared::ReliefRun{eye, run.count});
         if (holes) {
-            const std::vector<Binding> bindings{material.bindings[0],
-                                                material.bindings[1 + TEXTURE_BASE_COLOR]};
+            std::vector<Binding> bindings{material.bindings[0], material.bindings[1 + TEXTURE_BASE_COLOR]};
+            if (deep) bindings.push_back(material.bindings[1 + TEXTURE_HEIGHT]);
             pass.bind_set(0, pass.descriptors().set(wanted.set_layouts[0], bindings));
         }
         const std::vector<Binding> places{texels(*casters.places)};

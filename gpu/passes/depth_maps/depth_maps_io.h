@@ -17,6 +17,12 @@ struct ReliefDraw {
     vec4 eye;          // of the map, in the world; w 0: all of it looks from this direction
 };
 
+// .. of many instances at once, whose places stand in a table.
+struct ReliefRun {
+    vec4 eye;    // as above
+    uint count;  // of them
+};
+
 SHARED_END
 
 #endif

@@ -133,7 +133,7 @@ float glow_highlight(float roughness)
 ShapedLobes shaped_lobes(LitPoint p)
 {
     ShapedLobes lobes;
-    if ((WAYS & LIGHTS_LTC) != 0u) {
+    if ((WAYS & LIGHTS_LTC) != 0u || RECTANGLES != 0u) {
         lobes.surface = surface_frame(p.normal, p.view);
         lobes.lobe = lobe_frame(lobes.surface, ltc_matrix(p.roughness, clamp(dot(p.normal, p.view), 0.0, 1.0)));
         lobes.split_sum = split_sum(p.normal, p.view, p.roughness);
@@ -155,6 +155,16 @@ vec3 film_over(LitPoint p, vec3 in_film, vec3 l, vec3 below, float highlight)
 {
     return below * ((1.0 - p.film.share * water_fresnel(dot(p.film.normal, l))) * p.shaped.film_keeps) +
            vec3(p.shaped.film_mirrors * (cosine_share(in_film) * highlight * p.film.lit));
+}
+
+// Highlight of GGX's lobe of a shape that glows or is a lamp.
+//   in_lobe  its irradiance where the lobe is a cosine
+vec3 shape_highlight(LitPoint p, vec3 in_lobe, float highlight)
+{
+    const float nv = clamp(dot(p.normal, p.view), 0.0, 1.0);
+    const vec2 sum = p.shaped.split_sum;
+    const float kept = 1.0 - p.layers.coat * coat_fresnel(nv);
+    return (p.specular * sum.x + vec3(sum.y)) * (cosine_share(in_lobe) * highlight * kept * kept);
 }
 
 // By linearly transformed cosines. Highlights of other shapes than GGX's, of coats, fibres and hair, are
@@ -192,12 +202,7 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
         radiance += p.albedo * (p.layers.transmitted * cosine_share(vec3(f.xy, -f.z)));
     }
     if (ggx && p.lobe.lit > 0.0 && specular > 0.0) {
-        const float nv = clamp(dot(p.normal, p.view), 0.0, 1.0);
-        const vec3 g = outline_irradiance(o, p.shaped.lobe);
-        const vec2 sum = p.shaped.split_sum;
-        const float kept = 1.0 - p.layers.coat * coat_fresnel(nv);
-        radiance += (p.specular * sum.x + vec3(sum.y)) *
-                    (cosine_share(g) * specular * kept * kept);
+        radiance += shape_highlight(p, outline_irradiance(o, p.shaped.lobe), specular);
     }
     if (FILM != 0u)
         radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight < 0.0 ? glow_highlight(p.film.roughness) : highlight);
@@ -272,8 +277,9 @@ vec3 area_light(LitPoint p, LightRow light, vec3 centre, float reach_m, vec4 siz
     return shape_light(p, o, size.z, visible) * shines * window;
 }
 
-// A glowing rectangle: exact for a matt surface that sees all of it, and for a film of water; what else is
-// mirrored, as of a light in the direction of the irradiance, blurred by its size.
+// A glowing rectangle: exact for a matt surface that sees all of it; mirrored by linearly transformed cosines, in
+// lobes of GGX and in a film of water. Other lobes mirror it as a light in the direction of the irradiance, blurred by
+// its size.
 vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
 {
     const vec3 half_u = light.axis.xyz;
@@ -295,12 +301,25 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
     if (cosine > nl) l = normalize(l + p.normal * (cosine - nl));
     const float alpha = p.roughness * p.roughness;
     const float blurred = min(alpha + 0.5 * wide, 1.0);
-    LitPoint q = p;
-    q.roughness = sqrt(blurred);
-    q.specular = p.specular * glow_highlight(p.roughness);
-    q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
-                       blurred);
-    const vec3 radiance = model_light(q, l) * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
+    const bool ggx = mirrors_as_ggx(p.model) && p.layers.anisotropy <= 0.0;
+    const float highlight = glow_highlight(p.roughness);
+    LitPoint q = matt_part(p);
+    if (!ggx) {
+        q.roughness = sqrt(blurred);
+        q.specular = p.specular * highlight;
+        q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
+                           blurred);
+    }
+    if (p.layers.coat > 0.0) {
+        const float coat = p.layers.coat_roughness * p.layers.coat_roughness;
+        q.layers.coat_roughness = sqrt(min(coat + 0.5 * wide, 1.0));
+    }
+    vec3 radiance = model_light(q, l) * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
+    if (ggx && p.lobe.lit > 0.0 && highlight > 0.0) {
+        const vec3 in_lobe = rectangle_irradiance(through(p.shaped.lobe, centre), through(p.shaped.lobe, half_u),
+                                                  through(p.shaped.lobe, half_v));
+        radiance += shape_highlight(p, in_lobe, highlight);
+    }
     const float q2 = dot(centre, centre) * light.inverse_reach2;
     const vec3 shines = color.rgb * clamp(1.0 - light.size.y * q2 * q2, 0.0, 1.0);
     if (FILM == 0u) return radiance * shines;

@@ -6,12 +6,15 @@
 #include <utility>
 
 #include "gpu/frame/frame_io.h"
+#include "gpu/passes/surface/surface_draws_io.h"
 #include "gpu/passes/surface/surface_io.h"
 #include "gpu/upload/draw.h"
 
 namespace petrichor::gpu {
 
 namespace {
+
+static_assert(sizeof(shared::DrawConstants) == SURFACE_DRAW_TEXELS * 16);
 
 const char* fragment_shader(const GBufferParts& parts)
 {
@@ -45,7 +48,11 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
     if (layer) {
         bindings.push_back({SURFACE_LAYER_SOLID_DEPTH, sampled(*layer->solid_depth, targets.nearest)});
         bindings.push_back({SURFACE_LAYER_BEFORE, sampled(*layer->before, targets.nearest)});
+    } else {
+        for (const std::uint32_t unread : {SURFACE_LAYER_SOLID_DEPTH, SURFACE_LAYER_BEFORE})
+            bindings.push_back({unread, sampled(*maps.ripple, maps.trilinear)});
     }
+    bindings.push_back({SURFACE_DRAWS, texels(scene.draw_rows())});
     const bool layered = layer != nullptr;
     std::vector<Attachment> colors = gbuffer_attachments(g, parts);
     if (layer) {
@@ -78,12 +85,13 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 const VkDescriptorSetLayout material_layout =
                     pass.pipelines().set_layout(desc.sets[1]);
                 bind_geometry(commands, scene);
-                const auto draws = visible_draws(scene, world_to_clip, camera_m, which);
+                const auto runs = visible_runs(scene, world_to_clip, camera_m, which);
                 SeenBinder binder(commands, scene, seen.get());
                 const Pipeline* bound = nullptr;
                 std::uint32_t bound_material = UINT32_MAX;
-                const auto record = [&](const GraphicsDesc& wanted, const Draw& draw, bool shaded) {
-                    const SeenRange range = binder.range_of(draw);
+                const auto record = [&](const GraphicsDesc& wanted, const DrawRun& run, bool shaded) {
+                    const Draw& draw = *run.first;
+                    const SeenRange range = run.count > 1 ? SeenRange{} : binder.range_of(draw);
                     if (range.index_count == 0) return;
                     const GpuMaterial& material = scene.materials()[draw.material];
                     const Pipeline& pipeline = pass.pipelines().graphics(wanted);
@@ -98,7 +106,11 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     }
                     set_facing(commands, material.cull, draw.mirrored);
                     pass.push(draw_constants(draw));
-                    binder.draw(draw, range);
+                    if (run.count > 1) {
+                        binder.draw_run(draw, run.count, static_cast<std::uint32_t>(&draw - scene.draws().data()));
+                    } else {
+                        binder.draw(draw, range);
+                    }
                 };
                 // Depth of the opaque things first, where shading is dear: then each pixel is
                 // shaded once.
@@ -108,10 +120,13 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 depth_only.fragment.clear();
                 depth_only.attributes.resize(1);
                 depth_only.color_write = false;
-                for (const Draw* draw : draws) {
-                    if (depth_first && !has_holes(scene, *draw)) record(depth_only, *draw, false);
+                for (const DrawRun& run : runs) {
+                    if (!depth_first || has_holes(scene, *run.first)) continue;
+                    depth_only.specialization = {{SURFACE_SPEC_INSTANCED, run.count > 1}};
+                    record(depth_only, run, false);
                 }
-                for (const Draw* draw : draws) {
+                for (const DrawRun& run : runs) {
+                    const Draw* draw = run.first;
                     const bool holes = has_holes(scene, *draw);
                     GraphicsDesc shaded = desc;
                     const std::uint32_t own = scene.materials()[draw->material].own_surface;
@@ -127,7 +142,8 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_FALLS, weather.falls},
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
                         {SURFACE_SPEC_SECOND, scene.materials()[draw->material].second},
-                        {SURFACE_SPEC_LOOKS, draw->look != 0},
+                        {SURFACE_SPEC_LOOKS, run.count > 1 ? scene.materials()[draw->material].looks : draw->look != 0},
+                        {SURFACE_SPEC_INSTANCED, run.count > 1},
                         {SURFACE_SPEC_LAYER_ROLES_A, scene.materials()[draw->material].layer_roles[0]},
                         {SURFACE_SPEC_LAYER_ROLES_B, scene.materials()[draw->material].layer_roles[1]},
                         {SURFACE_SPEC_LAYER_ROLES_C, scene.materials()[draw->material].layer_roles[2]},
@@ -137,7 +153,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     if (layered) shaded.specialization.push_back({SURFACE_SPEC_LAYER_FIRST, first});
                     if (layered && own != 0) shaded.specialization.push_back({SURFACE_SPEC_OWN, own});
                     shaded.depth_equal = depth_first && !holes;
-                    record(shaded, *draw, true);
+                    record(shaded, run, true);
                 }
             },
     });

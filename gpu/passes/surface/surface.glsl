@@ -26,6 +26,7 @@ layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec4 in_uv;
 layout(location = 4) in vec4 in_color;
 layout(location = 5) in vec4 in_weather;
+layout(location = 6) flat in uvec2 in_who;
 
 #if SURFACE_WEATHER
 #define WEATHER_TARGETS(ROW) GBUFFER_WEATHER(ROW)
@@ -69,9 +70,9 @@ void main()
     at.color = in_color;
     at.weather = in_weather;
     at.pixel = ivec2(gl_FragCoord.xy);
-    at.instance_id = draw.instance_id;
+    at.instance_id = in_who.x;
     at.material_id = draw.material_id;
-    at.look = draw.look;
+    at.look = in_who.y;
 
     SurfaceData data = evaluate_surface(at);
     if (FADE != 0u && faded(draw.fade, at.pixel)) discard;

@@ -13,7 +13,7 @@ layout(location = 5) in vec4 in_color;
 layout(location = 6) in vec4 in_weather;
 
 layout(set = 0, binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(push_constant, scalar) uniform Push { DrawConstants draw; };
+#include "gpu/passes/surface/surface_place.glsl"
 
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
@@ -21,24 +21,27 @@ layout(location = 2) out vec4 out_tangent;
 layout(location = 3) out vec4 out_uv;
 layout(location = 4) out vec4 out_color;
 layout(location = 5) out vec4 out_weather;
+layout(location = 6) flat out uvec2 out_who;  // instance; its look
 
 // The depth pre-pass must find the same depth to the last bit.
 invariant gl_Position;
 
 void main()
 {
+    const DrawConstants here = draw_here(gl_InstanceIndex);
     const vec4 p = vec4(in_position, 1.0);
-    const vec3 world = vec3(dot(draw.to_world[0], p), dot(draw.to_world[1], p), dot(draw.to_world[2], p));
+    const vec3 world = vec3(dot(here.to_world[0], p), dot(here.to_world[1], p), dot(here.to_world[2], p));
     out_position = world;
-    out_normal = vec3(dot(draw.normal_to_world[0].xyz, in_normal),
-                      dot(draw.normal_to_world[1].xyz, in_normal),
-                      dot(draw.normal_to_world[2].xyz, in_normal));
-    out_tangent.xyz = vec3(dot(draw.to_world[0].xyz, in_tangent.xyz),
-                           dot(draw.to_world[1].xyz, in_tangent.xyz),
-                           dot(draw.to_world[2].xyz, in_tangent.xyz));
+    out_normal = vec3(dot(here.normal_to_world[0].xyz, in_normal),
+                      dot(here.normal_to_world[1].xyz, in_normal),
+                      dot(here.normal_to_world[2].xyz, in_normal));
+    out_tangent.xyz = vec3(dot(here.to_world[0].xyz, in_tangent.xyz),
+                           dot(here.to_world[1].xyz, in_tangent.xyz),
+                           dot(here.to_world[2].xyz, in_tangent.xyz));
     out_tangent.w = in_tangent.w;
     out_uv = vec4(in_uv0, in_uv1);
     out_color = in_color;
     out_weather = in_weather;
+    out_who = uvec2(here.instance_id, here.look);
     gl_Position = frame.world_to_clip * vec4(world, 1.0);
 }

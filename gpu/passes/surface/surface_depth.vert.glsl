@@ -8,13 +8,14 @@
 layout(location = 0) in vec3 in_position;
 
 layout(set = 0, binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(push_constant, scalar) uniform Push { DrawConstants draw; };
+#include "gpu/passes/surface/surface_place.glsl"
 
 invariant gl_Position;
 
 void main()
 {
+    const DrawConstants here = draw_here(gl_InstanceIndex);
     const vec4 p = vec4(in_position, 1.0);
-    const vec3 world = vec3(dot(draw.to_world[0], p), dot(draw.to_world[1], p), dot(draw.to_world[2], p));
+    const vec3 world = vec3(dot(here.to_world[0], p), dot(here.to_world[1], p), dot(here.to_world[2], p));
     gl_Position = frame.world_to_clip * vec4(world, 1.0);
 }
