@@ -89,7 +89,7 @@ bool holds_snow_body(const Material& material);
 inline constexpr float kDeepestSnow_m = 0.4f;
 float drawn_snow_m(float depth_m);
 
-/// Share of a step that snow of a depth closes: 1 of steps no higher than that, 0 from 1.75 of it on: what rounding takes
+/// Share of a step that snow of a depth closes: 1 of steps up to 1.45 of that, 0 from 1.75 of it on: what rounding takes
 /// from an edge, (1 - pi / 4) of the depth squared a metre, is enough for a bank of 55 degrees there.
 float step_closed(float step_m, float depth_m);
 

@@ -187,6 +187,10 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
             at.x += p.out.x * out;
             at.z += p.out.y * out;
             sunk_rim[i] = bank > 0.5f ? 1 : 0;
+        } else if (rim && held > 0.0f) {
+            // Its last triangles go into the stone: along its face they would be a dashed line.
+            at.x -= p.out.x * kSunk_m;
+            at.z -= p.out.y * kSunk_m;
         } else if (s < 1.0f && held > 0.0f) {
             const float bulge = 3.5f * std::sqrt(s) * (1.0f - s) * (1.0f - s);
             const float out = std::min(kOverhang * held, kMostOverhang_m) * bulge * (1.0f - kept);

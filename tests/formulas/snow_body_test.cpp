@@ -15,7 +15,7 @@ double mean_share(float deep_m, float melt_exp)
     double sum = 0.0;
     constexpr std::uint32_t kPlaces = 4000;
     for (std::uint32_t i = 0; i < kPlaces; ++i)
-        sum += static_cast<double>(snow_body_share(deep_m, somewhere(i), melt_exp));
+        sum += static_cast<double>(snow_body_share(deep_m, 0.0f, somewhere(i), melt_exp));
     return sum / kPlaces;
 }
 
@@ -23,19 +23,39 @@ TEST(SnowBodyShare, RisesWithTheDepthAndFallsWithTheThawAtEveryPlace)
 {
     for (std::uint32_t i = 0; i < 500; ++i) {
         const vec2 at = somewhere(i);
-        for (const float melt : {0.0f, 0.2f, 1.0f}) {
-            EXPECT_EQ(snow_body_share(0.0f, at, melt), 0.0f);
-            EXPECT_EQ(snow_body_share(SNOW_BODIED_M, at, melt), 1.0f);
-            float before = 0.0f;
-            for (int k = 1; k <= 60; ++k) {
-                const float share = snow_body_share(0.001f * static_cast<float>(k), at, melt);
-                EXPECT_GE(share, before);
-                before = share;
+        for (const float over : {-0.02f, -0.005f, 0.0f, 0.005f, 0.02f}) {
+            for (const float melt : {0.0f, 0.2f, 1.0f}) {
+                EXPECT_EQ(snow_body_share(0.0f, over, at, melt), 0.0f);
+                EXPECT_EQ(snow_body_share(SNOW_BODIED_M, over, at, melt), 1.0f);
+                float before = 0.0f;
+                for (int k = 1; k <= 60; ++k) {
+                    const float share = snow_body_share(0.001f * static_cast<float>(k), over, at, melt);
+                    EXPECT_GE(share, before);
+                    before = share;
+                }
             }
+            for (const float deep : {0.01f, 0.02f, 0.04f})
+                EXPECT_GE(snow_body_share(deep, over, at, 0.0f), snow_body_share(deep, over, at, 0.25f));
         }
-        for (const float deep : {0.01f, 0.02f, 0.04f})
-            EXPECT_GE(snow_body_share(deep, at, 0.0f), snow_body_share(deep, at, 0.25f));
     }
+}
+
+// At every place there is no less of it the lower the ground: joints keep thin snow longer than the stones beside them.
+TEST(SnowBodyShare, LiesLongestBetweenStones)
+{
+    double joints = 0.0, stones = 0.0;
+    constexpr std::uint32_t kPlaces = 2000;
+    for (std::uint32_t i = 0; i < kPlaces; ++i) {
+        const vec2 at = somewhere(i);
+        for (const float deep : {0.005f, 0.015f, 0.03f, 0.05f}) {
+            const float joint = snow_body_share(deep, -0.012f, at, 1.0f), stone = snow_body_share(deep, 0.004f, at, 1.0f);
+            ASSERT_GE(joint, stone);
+            ASSERT_GE(settled_snow_m(deep, -0.012f), settled_snow_m(deep, 0.004f));
+        }
+        joints += static_cast<double>(snow_body_share(0.015f, -0.012f, at, 1.0f));
+        stones += static_cast<double>(snow_body_share(0.015f, 0.004f, at, 1.0f));
+    }
+    EXPECT_GT(joints, 1.5 * stones) << "of a finger of melting snow";
 }
 
 TEST(SnowBodyShare, FreshSnowLiesEvenlyAndMeltingSnowInPatches)
@@ -49,8 +69,8 @@ TEST(SnowBodyShare, FreshSnowLiesEvenlyAndMeltingSnowInPatches)
     constexpr std::uint32_t kPlaces = 1000;
     for (std::uint32_t i = 0; i < kPlaces; ++i) {
         const vec2 at = somewhere(i);
-        const bool here = snow_body_share(0.021f, at, 1.0f) > 0.5f;
-        same += here == (snow_body_share(0.021f, at + vec2(0.03f, 0.0f), 1.0f) > 0.5f) ? 1 : 0;
+        const bool here = snow_body_share(0.021f, 0.0f, at, 1.0f) > 0.5f;
+        same += here == (snow_body_share(0.021f, 0.0f, at + vec2(0.03f, 0.0f), 1.0f) > 0.5f) ? 1 : 0;
     }
     EXPECT_GT(same, 850);
 }

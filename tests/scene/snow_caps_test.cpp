@@ -512,6 +512,28 @@ TEST(SnowShape, RoundThingsCarryAllOfItOnTheirCrown)
     EXPECT_LT(side, 0.5f * crown + 0.012f);
 }
 
+// The rim of a cap is within what it lies on: along its faces it would be drawn by halves.
+TEST(SnowShape, ARimEndsWithinTheStone)
+{
+    const SnowCaps caps = caps_of(yard());
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.1f));
+    int rims = 0;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const auto& p = caps.points[i];
+        if (std::abs(p.base_m.y - 1.0f) > 1e-4f || p.edge_m > 1e-4f) continue;
+        ++rims;
+        const vec3 at = shape.positions[i];
+        EXPECT_LT(at.y, 0.995f);
+        EXPECT_LT(std::min(std::abs(at.x), std::abs(at.z)), 0.2f);
+        EXPECT_LT(std::max(std::abs(at.x), std::abs(at.z)), 0.2001f) << at.x << " " << at.z;
+        const bool corner = std::min(std::abs(p.base_m.x), std::abs(p.base_m.z)) > 0.199f;
+        if (!corner) {
+            EXPECT_LT(std::max(std::abs(at.x), std::abs(at.z)), 0.195f) << at.x << " " << at.z;
+        }
+    }
+    EXPECT_GE(rims, 8);
+}
+
 // A kerb of 12 cm under 14 cm of snow: what its edge sheds reaches down into the snow of the road. Under 3 cm its face is bare.
 TEST(SnowShape, DeepSnowClosesAStep)
 {

@@ -71,7 +71,10 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     }
 
     const float amount_raw = snow_amount_raw(at, here.snow);
-    const float body = snow_body(at);
+    // Deep snow knows no relief below it.
+    const bool bodied = (SNOW & SNOW_BODY) != 0u && at.weather.a <= 0.0;
+    const float over_m = SNOW != 0u && !bodied ? stands_over_m(at) : 0.0;
+    const float body = snow_body(at, over_m);
     const float amount = max(saturate(amount_raw), body);
     const vec3 smoothed = normalize(
         to_world(f, normalize(mix(mapped, vec3(0.0, 0.0, 1.0), saturate(amount_raw * 0.5)))));
@@ -80,7 +83,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     snow.melt = 0.0;
     // A patch knows how steep it is; of the pixel its relief alone counts.
     const float up = here.placed ? min(smoothed.y + 1.0 - saturate(at.normal.y), 1.0) : smoothed.y;
-    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up);
+    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up, over_m);
     if ((SNOW & SNOW_BODY) != 0u) snow.snow = max(snow.snow, body);
 
     StandingWater water;

@@ -3,7 +3,12 @@
 #define PETRICHOR_SURFACE_SNOW_GLSL
 
 #include "formulas/weather/surface_weather.h"
+#include "formulas/weather/ground_relief.h"
+#include "gpu/passes/surface/sets.glsl"
 #include "gpu/passes/surface/textures.glsl"
+
+const float SNOW_MEAN_RELIEF = 0.7;   // of stones and their joints, in height maps
+const float SNOW_SETTLES_M = 0.008;  // what lies so much lower is a joint
 
 // Before it is saturated: the amount that falls here, and what the material always has.
 float snow_amount_raw(SurfaceInput at, float lies)
@@ -61,10 +66,20 @@ float snow_masks_blurred(SurfaceInput at)
     return snow_mask_blurred(sqrt(max(dot(dx, dx), dot(dy, dy))), vec2(tiling[kSnowMask], tiling[kSnowMaskDetail]));
 }
 
-// smoothed_up: y of the pixel normal, smoothed by the snow's amount.
-SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
+// How high the relief stands here over its mean, metres; 0 on what has none.
+float stands_over_m(SurfaceInput at)
 {
-    const float mask = snow_mask(at);
+    if (!has_relief()) return 0.0;
+    const float unit_m = material.height_scale_m > 0.0 ? material.height_scale_m : kGroundReliefUnit_m;
+    return (relief_height(at) - SNOW_MEAN_RELIEF) * unit_m;
+}
+
+// smoothed_up: y of the pixel normal, smoothed by the snow's amount. over_m: as stands_over_m().
+SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m)
+{
+    // What falls first comes to rest between the stones.
+    const float between = clamp(-over_m / SNOW_SETTLES_M, -1.0, 1.0);
+    const float mask = saturate(snow_mask(at) * (1.0 + 0.45 * between * (1.0 - amount)));
     const float melt = frame.weather.melt * material.snow_accumulation.y;
     const float height = snow_line_factor(at.position, frame.weather.snow_start_height_m,
                                           frame.weather.snow_height_blend_m, frame.look.snow_line_ragged);
@@ -80,7 +95,7 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
         return snow_cover_of_vertices(amount, at.normal.y, material.snow_slope_damp, mask, detail, melt,
                                       blurred);
     }
-    float holds = snow_rests(at.normal.y);
+    float holds = snow_rests(at.normal.y) + max(between, 0.0);
     if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
         const vec2 dx = at.position_dx.xz;
         const vec2 dy = at.position_dy.xz;
