@@ -553,6 +553,47 @@ TEST(TextureBuild, RoughnessIsAimedAtTheNormalsInTheFile)
               read_file(place / "exactoverlap/exact_r.dds").size());
 }
 
+// Full quality lights the maps as what their metallic map says: nothing metal as if there were no
+// map, all of it as metal, some of it as neither.
+TEST(TextureBuild, LevelsAreThoseOfWhatTheMetallicMapSays)
+{
+    const Workplace place("build-surface");
+    const texproc::MaterialMaps plate =
+        texproc::generate_material(texproc::MaterialKind::MetalPlate, 64, 3, 1);
+    texproc::write_image(place / "normal.exr", plate.normal);
+    texproc::write_image(place / "roughness.exr", plate.roughness);
+    // share: how much of the map is metal, in a band; below 0 there is no map.
+    const auto built = [&](const std::string& name, float share) {
+        std::string recipe = "[inputs]\nnormal = \"normal.exr\"\nroughness = \"roughness.exr\"\n";
+        std::string outputs =
+            "[[output]]\nfile = \"{name}_n\"\nchannels = [\"normal.r\", \"normal.g\"]\n"
+            "format = \"dds\"\ncompression = \"bc5\"\n[[output]]\nfile = \"{name}_r\"\n"
+            "channels = [\"roughness\"]\nformat = \"dds\"\ncompression = \"bc4\"\n";
+        if (share >= 0.0f) {
+            Image metallic(64, 64, 1, ColorSpace::Data);
+            for (int y = 0; y < 64; ++y)
+                for (int x = 0; x < 64; ++x)
+                    metallic.at(x, y, 0) = static_cast<float>(y) < 64.0f * share ? 1.0f : 0.0f;
+            texproc::write_image(place / (name + "_metallic.png"), metallic);
+            recipe += "metallic = \"" + name + "_metallic.png\"\n";
+            outputs += "[[output]]\nfile = \"{name}_m\"\nchannels = [\"metallic\"]\n";
+        }
+        write_file(place / (name + ".toml"), recipe + outputs);
+        const Outcome made = run({"texture", "build", name + ".toml", "--quality", "full",
+                                  "--no-score", "-o", name},
+                                 place);
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        return read_file(place / name / (name + "_n.dds")) +
+               read_file(place / name / (name + "_r.dds"));
+    };
+    const std::string none = built("none", -1.0f), paint = built("paint", 0.0f),
+                      some = built("some", 0.5f), metal = built("metal", 1.0f);
+    EXPECT_TRUE(none == paint);
+    EXPECT_FALSE(some == paint);
+    EXPECT_FALSE(metal == paint);
+    EXPECT_FALSE(metal == some);
+}
+
 // A leaf, green where its own opacity map says so and black elsewhere.
 TEST(TextureBuild, AnOpacityMapKeepsBlackOutOfTheLevels)
 {
