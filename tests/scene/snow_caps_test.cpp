@@ -136,6 +136,24 @@ TEST(SnowCaps, HaveNoCracks)
     EXPECT_GT(borders, 20);
 }
 
+// A plinth of 6 cm that stands on the ground is a thing: its snow is its own, and no bank buries it. A pavement as high is ground.
+TEST(SnowCaps, BanksLieOnGroundAndNotOnThings)
+{
+    const auto banked = [](const vec3& high) {
+        Scene scene = empty_scene();
+        add_face(scene, {-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+        add_box(scene, {-0.15f, 0, -0.15f}, high, false);
+        SnowCapOptions options;
+        options.eyes_m = {{0, 1.6f, 2.5f}};
+        const SnowCaps caps = caps_of(scene, options);
+        int points = 0;
+        for (const auto& p : caps.points) points += p.bank > 0.0f ? 1 : 0;
+        return points;
+    };
+    EXPECT_EQ(banked({0.15f, 0.06f, 0.15f}), 0);
+    EXPECT_GT(banked({0.85f, 0.06f, 0.85f}), 100);
+}
+
 // Two slabs 2 cm apart: their borders are closed, and under snow they reach over the joint.
 TEST(SnowCaps, ReachOverJoints)
 {

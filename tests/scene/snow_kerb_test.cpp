@@ -1,6 +1,7 @@
 // Deep snow on the kerbs of the demo: one sheet, seen from where people stand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -105,6 +106,19 @@ struct Kerb {
     float side, from_z, to_z;
 };
 constexpr Kerb kKerbs[] = {{"left", -1.0f, 4.6f, 6.5f}, {"right", 1.0f, 2.9f, 6.5f}};
+
+// Snow lies where it fell: nowhere is it higher above its ground than it is deep and than a step that a bank covers.
+TEST(SnowOnKerbs, StandsNowhereUp)
+{
+    for (const float depth : {0.05f, 0.12f, 0.2f, 0.3f}) {
+        const SnowShape shape = snow_shape(street().caps, std::vector<float>(street().caps.points.size(), depth));
+        float highest = 0.0f;
+        for (std::size_t i = 0; i < shape.positions.size(); ++i)
+            highest = std::max(highest, shape.positions[i].y - street().caps.points[i].base_m.y);
+        EXPECT_LT(highest, 1.5f * depth + 0.3f) << "at " << depth;
+        EXPECT_GT(highest, depth) << "at " << depth;
+    }
+}
 
 // No stone is seen between the snow on a kerb and that beside it, by someone who stands in the street.
 TEST(SnowOnKerbs, LeavesNoStoneBetween)

@@ -18,6 +18,7 @@ using glm::vec3;
 using glm::vec4;
 
 constexpr float kWideGround_m2 = 0.6f;  // ground that hangs together and is no larger keeps its shape
+constexpr float kWidePlateau_m2 = 0.25f;  // what stands higher than all around it and is no larger is a thing
 constexpr float kStep_m = 0.02f;        // from cell to cell: lower ones are relief
 constexpr float kSteepStep = 0.7f;      // .. and no steeper than this they are slopes
 constexpr float kReach_m = 0.22f;       // so far from a step the sheet reaches
@@ -34,47 +35,87 @@ constexpr float kFarthest_m = 11.0f;
 constexpr float kOfGround_m = 0.04f;
 constexpr float kHolds = 0.02f;         // share of the depth: less is no ground that snow lies on
 
+class Groups {
+public:
+    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    std::uint32_t root(std::uint32_t i) const
+    {
+        while (parent_[i] != i) i = parent_[i];
+        return i;
+    }
+    void join(std::uint32_t a, std::uint32_t b)
+    {
+        a = shortened(a);
+        b = shortened(b);
+        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    }
+    /// Members of each group, at its root. Afterwards each member's parent is its root.
+    std::vector<std::uint32_t> sizes()
+    {
+        std::vector<std::uint32_t> count(parent_.size(), 0);
+        for (std::uint32_t i = 0; i < parent_.size(); ++i) ++count[parent_[i] = root(i)];
+        return count;
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+
+    std::uint32_t shortened(std::uint32_t i)
+    {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+};
+
 // One ground: of each cell the highest layer of ground that hangs together over steps and is wide.
 class OneGround {
 public:
     explicit OneGround(const Sheet& sheet) : sheet_(&sheet), width_(sheet.width()), height_(sheet.height())
     {
         const auto& layers = sheet.layers();
-        std::vector<std::uint32_t> parent(layers.size());
-        std::iota(parent.begin(), parent.end(), 0u);
-        const auto root = [&](std::uint32_t i) {
-            while (parent[i] != i) i = parent[i] = parent[parent[i]];
-            return i;
-        };
-        const auto join = [&](int x, int z, int other_x, int other_z) {
-            if (other_x >= width_ || other_z >= height_) return;
-            for (std::uint32_t a = sheet.first(x, z); a != Sheet::kNoLayer; a = layers[a].next)
-                for (std::uint32_t b = sheet.first(other_x, other_z); b != Sheet::kNoLayer; b = layers[b].next)
-                    if (std::abs(layers[a].height_m - layers[b].height_m) < kHighestStep_m) parent[root(a)] = root(b);
-        };
         // Over a joint or a bevel too.
-        for (int z = 0; z < height_; ++z) {
-            for (int x = 0; x < width_; ++x) {
-                for (int k = 1; k <= kJoint; ++k) {
-                    join(x, z, x + k, z);
-                    join(x, z, x, z + k);
-                }
-            }
-        }
-        std::vector<std::uint32_t> cells(layers.size(), 0);
-        for (std::uint32_t i = 0; i < layers.size(); ++i) ++cells[root(i)];
-        const float wide = kWideGround_m2 / (sheet.cell_m() * sheet.cell_m());
+        const auto beside = [&](const auto& visit) {
+            for (int z = 0; z < height_; ++z)
+                for (int x = 0; x < width_; ++x)
+                    for (int k = 1; k <= kJoint; ++k)
+                        for (const ivec2 to : {ivec2(x + k, z), ivec2(x, z + k)}) {
+                            if (to.x >= width_ || to.y >= height_) continue;
+                            for (std::uint32_t a = sheet.first(x, z); a != Sheet::kNoLayer; a = layers[a].next)
+                                for (std::uint32_t b = sheet.first(to.x, to.y); b != Sheet::kNoLayer; b = layers[b].next)
+                                    if (std::abs(layers[a].height_m - layers[b].height_m) < kHighestStep_m) visit(a, b);
+                        }
+        };
+        Groups grounds(layers.size()), plateaus(layers.size());
+        beside([&](std::uint32_t a, std::uint32_t b) {
+            grounds.join(a, b);
+            if (std::abs(layers[a].height_m - layers[b].height_m) < kStep_m) plateaus.join(a, b);
+        });
+        const float cell_m2 = sheet.cell_m() * sheet.cell_m();
+        const std::vector<std::uint32_t> cells = grounds.sizes(), level = plateaus.sizes();
+        const auto wide_plateau = [&](std::uint32_t i) {
+            return static_cast<float>(level[plateaus.root(i)]) * cell_m2 >= kWidePlateau_m2;
+        };
+        // A bevel or a slot lies by what is higher and wide; what does not is the top of a thing.
+        std::vector<bool> beneath(layers.size(), false);
+        beside([&](std::uint32_t a, std::uint32_t b) {
+            if (layers[b].height_m < layers[a].height_m) std::swap(a, b);
+            if (wide_plateau(b)) beneath[plateaus.root(a)] = true;
+        });
+        const auto is_ground = [&](std::uint32_t i) {
+            return static_cast<float>(cells[grounds.root(i)]) * cell_m2 >= kWideGround_m2 &&
+                   (wide_plateau(i) || beneath[plateaus.root(i)]);
+        };
         top_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), Sheet::kNoLayer);
         for (int z = 0; z < height_; ++z) {
             for (int x = 0; x < width_; ++x) {
                 std::uint32_t& top = top_[index(x, z)];
                 for (std::uint32_t k = sheet.first(x, z); k != Sheet::kNoLayer; k = layers[k].next) {
-                    if (static_cast<float>(cells[root(k)]) < wide) continue;
+                    if (!is_ground(k)) continue;
                     if (top == Sheet::kNoLayer || layers[k].height_m > layers[top].height_m) top = k;
                 }
             }
         }
-        leave_out_things([&](std::uint32_t layer) { return static_cast<float>(cells[root(layer)]) >= wide; });
+        leave_out_things(is_ground);
         close_joints();
     }
 
@@ -97,7 +138,8 @@ public:
         float open = 0.0f;  ///< of what is open: what lies below bars counts little
         float whole = 0.0f;
     };
-    // The plane through what lies in a circle: one that a wall cuts has its mean off the place.
+    // The plane through what lies in a circle: one that a wall cuts has its mean off the place. Where little lies in it the
+    // plane is a guess, and goes no further than what lies there.
     Smoothed smoothed(int x, int z, float depth_m, float own_m, const vec2& place) const
     {
         const vec2 off = (place - sheet_->place(x, z)) / sheet_->cell_m();
@@ -105,6 +147,7 @@ public:
         const int around = static_cast<int>(reach + 0.5f);
         const int stride = reach > 9.0f ? 2 : 1;
         float weight = 0.0f, height = 0.0f, open = 0.0f, opens = 0.0f, all = 0.0f, xx = 0.0f, xz = 0.0f, zz = 0.0f;
+        float lowest = 1.0e9f, highest = -1.0e9f;
         vec2 middle(0.0f), lean(0.0f);
         for (int j = -around; j <= around; j += stride) {
             for (int i = -around; i <= around; i += stride) {
@@ -118,6 +161,8 @@ public:
                 const float rise = heights_[index(x + i, z + j)] - own_m;
                 if (std::abs(rise) > 2.0f * kHighestStep_m) continue;
                 weight += w;
+                lowest = std::min(lowest, rise);
+                highest = std::max(highest, rise);
                 height += w * rise;
                 open += w * here->open;
                 opens += w * here->open * here->open;
@@ -137,7 +182,7 @@ public:
         xz = xz / weight - middle.x * middle.y;
         const float det = xx * zz - xz * xz;
         const vec2 slope(glm::dot(vec2(zz, -xz), lean) / det, glm::dot(vec2(-xz, xx), lean) / det);
-        return {own_m + height - glm::dot(slope, middle), slope / (reach * sheet_->cell_m()), opens / std::max(open, 1.0e-6f), weight / all};
+        return {own_m + std::clamp(height - glm::dot(slope, middle), lowest, highest), slope / (reach * sheet_->cell_m()), opens / std::max(open, 1.0e-6f), weight / all};
     }
 
 private:
@@ -437,7 +482,8 @@ std::vector<BankPart> lay_banks(SnowCaps& caps, const CutMesh& mesh, const Sheet
             const ivec2 at = cell + ivec2(n % 3 - 1, n / 3 - 1);
             of_ground = ground.inside(at.x, at.y) && ground.found(at.x, at.y) && std::abs(ground.height_m(at.x, at.y) - point.base_m.y) < kOfGround_m;
         }
-        if (top == nullptr || !of_ground) continue;
+        // Nor of what lies below another ground.
+        if (top == nullptr || !of_ground || std::abs(top->height_m - point.base_m.y) > kHighestStep_m) continue;
         const std::size_t k = ground.index(cell.x, cell.y);
         const float sheet_lies = (1.0f - shared::smooth_edge(kReach_m - kFade_m, kReach_m, away[k])) *
                                  shared::smooth_edge(kEdge_m, 2.0f * kEdge_m, from_edge[k]);
