@@ -372,6 +372,9 @@ Device::Device(const RendererOptions& options)
         VkPhysicalDeviceProperties properties{};
         vkGetPhysicalDeviceProperties(physical_, &properties);
         limits_ = properties.limits;
+        VkFormatProperties floats{};
+        vkGetPhysicalDeviceFormatProperties(physical_, VK_FORMAT_R32G32B32A32_SFLOAT, &floats);
+        filters_floats_ = (floats.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
         subgroup_size_ = subgroups(physical_).subgroupSize;
         vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 

@@ -31,6 +31,8 @@ public:
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     /// Fragment shaders know the number of their triangle.
     bool primitive_ids() const { return primitive_ids_; }
+    /// Samplers look between texels of four floats of 32 bits.
+    bool filters_floats() const { return filters_floats_; }
     /// So many invocations of a compute shader can hand each other values.
     std::uint32_t subgroup_size() const { return subgroup_size_; }
     /// RendererOptions::passes_apart.
@@ -67,6 +69,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
     bool primitive_ids_ = false;
+    bool filters_floats_ = false;
     bool passes_apart_ = false;
     std::uint32_t subgroup_size_ = 1;
     bool debug_utils_ = false;

@@ -53,6 +53,8 @@ struct FrameTargets {
     GBuffer gbuffer;
     GBufferRows rows;                     ///< filled by add_gbuffer_rows
     SamplerHandle nearest;                ///< for texelFetch
+    SamplerHandle between;                ///< between texels of floats, where the device filters them
+    bool filters = false;                 ///< whether it does
     std::unique_ptr<GpuBuffer> occlusion;  ///< of the screen: a word a block, formulas/light/occlusion_points.h
     std::unique_ptr<GpuBuffer> occlusion_points;  ///< of blocks
     std::unique_ptr<GpuImage>

@@ -3,9 +3,11 @@
 #include "gpu/device/graph.h"
 #include "formulas/light/cube_quads.h"
 #include "gpu/frame/pixel_list.h"
+#include "gpu/passes/glare/glare.h"
 #include "gpu/passes/sky/scattered_again.h"
 #include "gpu/passes/sky/sky_io.h"
 
+#include <cstring>
 #include <glm/gtc/packing.hpp>
 
 #include "tests/gpu/gpu_fixture.h"
@@ -215,6 +217,66 @@ TEST_F(GraphTest, LayoutsFollowWhatImagesAreUsedFor)
     graph.execute(*device, *pipelines, *descriptors);
     EXPECT_EQ(image->state.layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     EXPECT_EQ(level->state.layout, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    expect_silence();
+}
+
+// Glare is the same whether the device looks between texels or the shader weighs them, at sides of odd length and borders too.
+TEST_F(GraphTest, GlareIsTheSameWithAndWithoutFilters)
+{
+    if (!device->filters_floats()) GTEST_SKIP() << "no filter of floats";
+    constexpr int kWidth = 37, kHeight = 23;
+    const auto picture = [&](int width, int height, VkImageUsageFlags usage) {
+        return arena->image({.name = "picture",
+                             .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                             .width = width,
+                             .height = height,
+                             .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT});
+    };
+    std::vector<float> light(kWidth * kHeight * 4);
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] = (i * 7919) % 101 == 0 ? 900.0f : static_cast<float>((i * 31) % 17);
+    std::vector<std::byte> bytes(light.size() * sizeof(float));
+    std::memcpy(bytes.data(), light.data(), bytes.size());
+    const auto glare = [&](bool filters) {
+        FrameTargets targets;
+        targets.width = kWidth;
+        targets.height = kHeight;
+        targets.accumulated = picture(kWidth, kHeight, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+        for (int w = kWidth, h = kHeight; targets.glare.size() < 4;) {
+            w = (w + 1) / 2;
+            h = (h + 1) / 2;
+            targets.glare.push_back(picture(w, h, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+        }
+        targets.filters = filters;
+        targets.between = make_sampler(*device, filters ? VK_FILTER_LINEAR : VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                       VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, 0.0f, true);
+        upload_image(*device, *targets.accumulated, {bytes});
+        GpuImage& first = *targets.glare.front();
+        const auto read = arena->buffer({.name = "read",
+                                         .size = static_cast<VkDeviceSize>(first.width * first.height) * 16,
+                                         .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                         .host = true});
+        FrameGraph graph;
+        add_glare(graph, targets, 1);
+        graph.add(TransferPass{.name = "read",
+                               .transfers = {{&first, nullptr, Use::TransferSource}, {nullptr, read.get(), Use::TransferTarget}},
+                               .record = [&](VkCommandBuffer commands) {
+                                   VkBufferImageCopy region{};
+                                   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+                                   region.imageExtent = {static_cast<std::uint32_t>(first.width), static_cast<std::uint32_t>(first.height), 1};
+                                   vkCmdCopyImageToBuffer(commands, first.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                                          read->buffer.get(), 1, &region);
+                               }});
+        graph.read_back({read.get()});
+        graph.execute(*device, *pipelines, *descriptors);
+        descriptors->reset();
+        std::vector<float> values(read->size / sizeof(float));
+        std::memcpy(values.data(), read->mapped, read->size);
+        return values;
+    };
+    const std::vector<float> weighed = glare(false), filtered = glare(true);
+    ASSERT_EQ(weighed.size(), filtered.size());
+    // Devices place a sample to 1/256 of a texel; between texels this far apart the rest is rounding.
+    for (std::size_t i = 0; i < weighed.size(); ++i) EXPECT_NEAR(filtered[i], weighed[i], 2.0e-4f * weighed[i] + 2.0e-3f) << i;
     expect_silence();
 }
 

@@ -19,8 +19,8 @@ void add_glare(FrameGraph& graph, FrameTargets& targets, int samples)
         graph.add(
             ComputePass{.name = "glare",
                         .shader = "glare_down.comp",
-                        .constants = {},
-                        .bindings = {{GLARE_SOURCE, sampled(source, targets.nearest)},
+                        .constants = {{GLARE_SPEC_FILTERS, targets.filters}},
+                        .bindings = {{GLARE_SOURCE, sampled(source, targets.between)},
                                      {GLARE_TARGET, storage(*levels[i])}},
                         .push = PushBlock(shared::GlareParams{scale}),
                         .groups = groups_over(levels[i]->width, levels[i]->height, GLARE_TILE)});
@@ -29,8 +29,8 @@ void add_glare(FrameGraph& graph, FrameTargets& targets, int samples)
         graph.add(ComputePass{
             .name = "glare",
             .shader = "glare_up.comp",
-            .constants = {},
-            .bindings = {{GLARE_WIDER, sampled(*levels[i], targets.nearest)},
+            .constants = {{GLARE_SPEC_FILTERS, targets.filters}},
+            .bindings = {{GLARE_WIDER, sampled(*levels[i], targets.between)},
                          {GLARE_LEVEL, storage(*levels[i - 1])}},
             .push = PushBlock(shared::GlareParams{kWider}),
             .groups = groups_over(levels[i - 1]->width, levels[i - 1]->height, GLARE_TILE)});

@@ -5,6 +5,7 @@
 #include "base/interop.h"
 
 #define GLARE_TILE 8
+#define GLARE_SPEC_FILTERS 0  // 1: the device filters floats of 32 bits
 
 // glare_down: each level from the one above it; the first from the sum of the samples
 #define GLARE_SOURCE 0

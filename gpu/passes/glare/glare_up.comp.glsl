@@ -2,8 +2,9 @@
 // A level with its share of the wider ones below it.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "gpu/passes/glare/glare.glsl"
 #include "gpu/passes/glare/glare_io.h"
+layout(constant_id = GLARE_SPEC_FILTERS) const uint FILTERS = 0u;
+#include "gpu/passes/glare/glare.glsl"
 
 layout(local_size_x = GLARE_TILE, local_size_y = GLARE_TILE) in;
 layout(binding = GLARE_WIDER) uniform sampler2D wider;

@@ -8,8 +8,9 @@
 #include "formulas/color/white_balance.h"
 #include "formulas/light/wet_lens.h"
 #include "gpu/frame/frame_io.h"
-#include "gpu/passes/glare/glare.glsl"
 #include "gpu/passes/resolve/resolve_io.h"
+layout(constant_id = RESOLVE_SPEC_FILTERS) const uint FILTERS = 0u;
+#include "gpu/passes/glare/glare.glsl"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "formulas/noise/noise.h"
 

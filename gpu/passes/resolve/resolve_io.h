@@ -14,5 +14,6 @@
 #define RESOLVE_SPEC_TONE_MAP 0  // a number of formulas/color/tone_map.h
 #define RESOLVE_SPEC_BLOOM 1
 #define RESOLVE_SPEC_WET_LENS 2
+#define RESOLVE_SPEC_FILTERS 3  // as GLARE_SPEC_FILTERS
 
 #endif
