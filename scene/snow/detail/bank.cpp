@@ -8,6 +8,7 @@
 
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
+#include "scene/snow/detail/circle_plane.h"
 
 namespace petrichor::scene::detail {
 namespace {
@@ -26,7 +27,6 @@ constexpr float kFade_m = 0.07f;        // .. and goes under the caps along the 
 constexpr int kThing = 3;               // cells: what is narrower than twice this and one is no ground
 constexpr int kJoint = 3;               // cells without ground between ground are a joint
 constexpr float kWidth = 1.6f;          // radius of the circle, over the depth, as that of the caps
-constexpr float kStiff = 0.01f;
 constexpr float kSteepest = 0.87f;      // y of the normal of the smoothed ground: steeper is no place for a bank
 constexpr float kEdge_m = 0.1f;         // from a deep edge: none within this, a whole one from twice as far on
 constexpr float kFine_m = 3.0f;         // as fine as the sheet's cells up to here from an eye, half as fine beyond
@@ -138,17 +138,15 @@ public:
         float open = 0.0f;  ///< of what is open: what lies below bars counts little
         float whole = 0.0f;
     };
-    // The plane through what lies in a circle: one that a wall cuts has its mean off the place. Where little lies in it the
-    // plane is a guess, and goes no further than what lies there.
+    // By the plane through what lies in a circle.
     Smoothed smoothed(int x, int z, float depth_m, float own_m, const vec2& place) const
     {
         const vec2 off = (place - sheet_->place(x, z)) / sheet_->cell_m();
         const float reach = std::max(kWidth * depth_m / sheet_->cell_m(), 1.5f);
         const int around = static_cast<int>(reach + 0.5f);
         const int stride = reach > 9.0f ? 2 : 1;
-        float weight = 0.0f, height = 0.0f, open = 0.0f, opens = 0.0f, all = 0.0f, xx = 0.0f, xz = 0.0f, zz = 0.0f;
-        float lowest = 1.0e9f, highest = -1.0e9f;
-        vec2 middle(0.0f), lean(0.0f);
+        CirclePlane plane;
+        float open = 0.0f, opens = 0.0f, all = 0.0f;
         for (int j = -around; j <= around; j += stride) {
             for (int i = -around; i <= around; i += stride) {
                 const vec2 way = (vec2(static_cast<float>(i), static_cast<float>(j)) - off) / reach;
@@ -160,29 +158,14 @@ public:
                 if (here == nullptr) continue;
                 const float rise = heights_[index(x + i, z + j)] - own_m;
                 if (std::abs(rise) > 2.0f * kHighestStep_m) continue;
-                weight += w;
-                lowest = std::min(lowest, rise);
-                highest = std::max(highest, rise);
-                height += w * rise;
+                plane.add(w, way, rise);
                 open += w * here->open;
                 opens += w * here->open * here->open;
-                middle += w * way;
-                lean += w * rise * way;
-                xx += w * way.x * way.x;
-                xz += w * way.x * way.y;
-                zz += w * way.y * way.y;
             }
         }
-        if (!(weight > 0.0f)) return {own_m};
-        middle /= weight;
-        height /= weight;
-        lean = lean / weight - height * middle;
-        xx = xx / weight - middle.x * middle.x + kStiff;
-        zz = zz / weight - middle.y * middle.y + kStiff;
-        xz = xz / weight - middle.x * middle.y;
-        const float det = xx * zz - xz * xz;
-        const vec2 slope(glm::dot(vec2(zz, -xz), lean) / det, glm::dot(vec2(-xz, xx), lean) / det);
-        return {own_m + std::clamp(height - glm::dot(slope, middle), lowest, highest), slope / (reach * sheet_->cell_m()), opens / std::max(open, 1.0e-6f), weight / all};
+        if (!(plane.weight() > 0.0f)) return {own_m};
+        const CirclePlane::Fit fit = plane.fit();
+        return {own_m + fit.rise_m, fit.slope_m / (reach * sheet_->cell_m()), opens / std::max(open, 1.0e-6f), plane.weight() / all};
     }
 
 private:

@@ -5,6 +5,7 @@
 
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
+#include "scene/snow/detail/circle_plane.h"
 
 namespace petrichor::scene::detail {
 namespace {
@@ -15,7 +16,6 @@ using glm::vec3;
 constexpr double kMostCells = 3.0e6;
 constexpr float kWidth = 1.6f;     // radius of the circle, over the depth
 constexpr float kUnder_m = 0.01f;  // snow of what lies below something goes so far under the snow on that
-constexpr float kStiff = 0.01f;    // of the plane through a circle, over its radius squared
 constexpr float kCovered_m = 0.06f; // the road under a lid, a gutter under bars
 constexpr float kShelter_m = SnowCaps::kFillDepths_m[2];  // around which shelter is as one
 constexpr float kBroad_m = SnowCaps::kFillDepths_m[3];  // whose surface tells how steep deep snow is
@@ -128,9 +128,8 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
     const int stride = reach > 9.0f ? 2 : 1;
     const int x0 = std::max(static_cast<int>(std::ceil(at.x - reach)), 0), x1 = std::min(static_cast<int>(std::floor(at.x + reach)), width_ - 1);
     const int z0 = std::max(static_cast<int>(std::ceil(at.y - reach)), 0), z1 = std::min(static_cast<int>(std::floor(at.y + reach)), height_ - 1);
-    float weight = 0.0f, height = 0.0f, open = 0.0f, bare = 0.0f, all = 0.0f;
-    vec2 middle(0.0f), lean(0.0f);
-    float xx = 0.0f, xz = 0.0f, zz = 0.0f;
+    CirclePlane plane;
+    float open = 0.0f, bare = 0.0f, all = 0.0f;
     for (int z = z0; z <= z1; z += stride) {
         for (int x = x0; x <= x1; x += stride) {
             const vec2 way = (vec2(static_cast<float>(x), static_cast<float>(z)) - at) / reach;
@@ -151,28 +150,15 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
             }
             const float step = std::abs(here - own_m);
             const float w = in * in * step_closed(step, depth_m);
-            weight += w;
-            height += w * (here - own_m);
+            plane.add(w, way, here - own_m);
             open += w * own->open;
             bare += covered ? 0.0f : w * own->open;
-            middle += w * way;
-            lean += w * (here - own_m) * way;
-            xx += w * way.x * way.x;
-            xz += w * way.x * way.y;
-            zz += w * way.y * way.y;
         }
     }
+    const float weight = plane.weight();
     if (!(weight > 0.0f)) return none;
-    // A circle that an edge cuts has its mean off the place: the plane through it tells what is here.
-    middle /= weight;
-    height /= weight;
-    lean = lean / weight - height * middle;
-    xx = xx / weight - middle.x * middle.x + kStiff;
-    zz = zz / weight - middle.y * middle.y + kStiff;
-    xz = xz / weight - middle.x * middle.y;
-    const float det = xx * zz - xz * xz;
-    const vec2 slope(glm::dot(vec2(zz, -xz), lean) / det, glm::dot(vec2(-xz, xx), lean) / det);
-    return {own_m + height - glm::dot(slope, middle), slope / radius, open / weight, bare / weight, weight / all};
+    const CirclePlane::Fit fit = plane.fit();
+    return {own_m + fit.rise_m, fit.slope_m / radius, open / weight, bare / weight, weight / all};
 }
 
 Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& joints, const Tracer& tracer, const SnowCapOptions& options)
