@@ -21,7 +21,7 @@ struct BakeConditions {
     double snow = 0.0;                   ///< 0..1, as WeatherMoment::snow_amount
     bool indirect = false;  ///< without what sun and lamps send straight: that stays real-time
     bool shadow_mask = false;  ///< beside the light, how much of sun and lamps is seen
-    std::string mask_lamps;    ///< glob of lamps that get channels of the mask; empty: all, as far as there are
+    std::string mask_lamps = {};  ///< glob of lamps that get channels of the mask; empty: all, as far as there are
 };
 
 /// Bakes the light maps of a scene: lamps of the scene, the sun and an overcast sky, surfaces that

@@ -50,7 +50,7 @@ struct GroundOptions {
     /// A sheet over the ground that encloses nothing is ground itself when it lies so near, m.
     double sheet_gap_m = 0.25;
     /// By material index; a shorter vector leaves the rest at Auto.
-    std::vector<GroundUse> use;
+    std::vector<GroundUse> use = {};
 };
 
 /// The ground of a scene, from its triangles.

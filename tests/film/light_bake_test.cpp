@@ -109,7 +109,9 @@ TEST(LightBake, AShadowMaskIsWhereTheSunIsSeen)
     for (const glm::vec4& seen : map.seen) {
         EXPECT_GE(seen.x, 0.0f);
         EXPECT_LE(seen.x, 1.0f);
-        if (seen.x + seen.y > 0.0f) EXPECT_EQ(glm::vec3(seen.y, seen.z, seen.w), glm::vec3(1.0f)) << "there is no lamp";
+        if (seen.x + seen.y > 0.0f) {
+            EXPECT_EQ(glm::vec3(seen.y, seen.z, seen.w), glm::vec3(1.0f)) << "there is no lamp";
+        }
     }
     sun.sun_elevation_degrees = -1.0;
     EXPECT_THROW(bake(scene, sun), Error);

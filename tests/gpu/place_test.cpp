@@ -201,16 +201,16 @@ TEST_F(PlaceTest, WhatSharesACellWithAnotherMaterialHasTheWeatherOfItsOwn)
 {
     load_floor();
     for (const float border : {0.08f, 0.2f, 0.33f}) {
-        const Scene floor = scene_of({quad({-2, 0, 2}, {2 + border, 0, 0}, {0, 0, -4}),
+        const Scene ground = scene_of({quad({-2, 0, 2}, {2 + border, 0, 0}, {0, 0, -4}),
                                       quad({border, 0, 2}, {2 - border, 0, 0}, {0, 0, -4}, 1)},
                                      {plain_material(glm::vec3(0.3f)), plain_material(glm::vec3(0.3f))});
-        const scene::Triangles triangles(floor, {});
+        const scene::Triangles triangles(ground, {});
         const scene::Tracer tracer(triangles);
         scene::PatchOptions options;
         options.cell_m = 0.5f;
         options.rays = 32;
         patches = scene::build_patches(tracer, options);
-        renderer->load(floor, {});
+        renderer->load(ground, {});
         shape = std::make_shared<PlaceShape>();
         shape->grid = scene::table_grid(patches);
         shape->table = patches.table;

@@ -75,14 +75,18 @@ TEST_P(Meshopt, SurvivesDamage)
         const std::vector<std::byte> cut(packed.begin(),
                                          packed.begin() + static_cast<std::ptrdiff_t>(size));
         const auto answer = unpack(cut);
-        if (answer) EXPECT_NE(hash_of(*answer), c.hash) << size;
+        if (answer) {
+            EXPECT_NE(hash_of(*answer), c.hash) << size;
+        }
     }
     for (std::size_t i = 0; i < packed.size(); ++i) {
         for (const int flip : {1, 128, 255}) {
             auto changed = packed;
             changed[i] ^= static_cast<std::byte>(flip);
             const auto answer = unpack(changed);
-            if (answer) EXPECT_EQ(answer->size(), c.count * c.stride);
+            if (answer) {
+                EXPECT_EQ(answer->size(), c.count * c.stride);
+            }
         }
     }
     EXPECT_FALSE(unpack_meshopt(packed, c.count, 3, c.mode, c.filter));
