@@ -14,11 +14,10 @@
 #include <optional>
 #include <set>
 
-#include "formulas/formula_probe.h"
 #include "formulas/weather/fair_weather.h"
 #include "gpu/compiler/compiler.h"
-#include "gpu/device/graph.h"
 #include "gpu/shader_library/tokens.h"
+#include "tests/gpu/formula_bench.h"
 #include "tests/gpu/gpu_fixture.h"
 #include "tests/gpu/hlsl_law.h"
 
@@ -238,28 +237,6 @@ TEST(FlattenedTexts, RenameWhatIsGlobalAndNothingElse)
 
 // ---- numbers -----------------------------------------------------------------------------------
 
-constexpr int kCount = 4096;
-
-float number(std::uint32_t i)
-{
-    std::uint32_t x = i * 0x9e3779b9u + 0x7f4a7c15u;
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    x ^= x >> 16;
-    return static_cast<float>(x >> 8) / 16777216.0f;
-}
-
-std::vector<glm::vec4> arguments()
-{
-    std::vector<glm::vec4> numbers(3 * kCount);
-    for (std::uint32_t i = 0; i < numbers.size(); ++i) {
-        for (std::uint32_t c = 0; c < 4; ++c) numbers[i][static_cast<int>(c)] = number(4 * i + c);
-    }
-    return numbers;
-}
-
 // `before` and a main that writes `call`, made of kind, a, b and c.
 std::string around(ShaderLanguage language, const std::string& before, const std::string& call)
 {
@@ -283,55 +260,6 @@ std::string around(ShaderLanguage language, const std::string& before, const std
            "    vec4 r;\n    " + call + "\n    results[i] = r;\n}\n";
 }
 
-// Runs a compute shader over the arguments, for each kind once.
-class Bench {
-public:
-    Bench() : device_(RendererOptions{.device = "", .validation = true}), pipelines_(device_), descriptors_(device_), arena_(device_)
-    {
-        const std::vector<glm::vec4> numbers = arguments();
-        input_ = arena_.buffer({.name = "numbers",
-                                .size = numbers.size() * sizeof(glm::vec4),
-                                .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
-        upload_buffer(device_, *input_, std::as_bytes(std::span(numbers)));
-        output_ = arena_.buffer({.name = "results", .size = kCount * sizeof(glm::vec4), .host = true});
-    }
-    ~Bench()
-    {
-        for (const std::string& message : device_.validation_messages()) ADD_FAILURE() << message;
-    }
-    void load(const std::string& name, std::vector<unsigned int> words) { pipelines_.add_shader(name, std::move(words)); }
-    std::vector<glm::vec4> run(const std::string& name, int kind)
-    {
-        FrameGraph graph;
-        graph.add(ComputePass{.name = "probe",
-                              .shader = name,
-                              .constants = {},
-                              .bindings = {{0, texels(*input_)}, {1, storage_buffer(*output_)}},
-                              .push = PushBlock(kind),
-                              .groups = {kCount / 64, 1, 1}});
-        graph.read_back({output_.get()});
-        graph.execute(device_, pipelines_, descriptors_);
-        std::vector<glm::vec4> results(kCount);
-        std::memcpy(results.data(), output_->mapped, kCount * sizeof(glm::vec4));
-        return results;
-    }
-
-private:
-    Device device_;
-    PipelineCache pipelines_;
-    DescriptorArena descriptors_;
-    MemoryArena arena_;
-    std::shared_ptr<GpuBuffer> input_;
-    std::shared_ptr<GpuBuffer> output_;
-};
-
-// The bounds of parity_test.cpp.
-bool near(float got, float expected)
-{
-    return std::abs(got - expected) <= 3e-5f + 3e-4f * std::abs(expected);
-}
-
 class ShaderLibraryParity : public GpuTest, public testing::WithParamInterface<ShaderLanguage> {};
 
 TEST_P(ShaderLibraryParity, GivesWhatTheCpuGives)
@@ -339,26 +267,9 @@ TEST_P(ShaderLibraryParity, GivesWhatTheCpuGives)
     const std::string text = flattened_texts(embedded_texts(), {"formulas/formula_probe.h"}, GetParam());
     Compiled probe = compiled({around(GetParam(), text, "r = petrichor_probe(kind, a, b, c);"), GetParam()});
     ASSERT_EQ(probe.errors, "");
-    Bench bench;
+    FormulaBench bench;
     bench.load("flattened_probe", std::move(probe.words));
-    const std::vector<glm::vec4> numbers = arguments();
-    for (int kind = 0; kind < shared::kProbeKinds; ++kind) {
-        const std::vector<glm::vec4> results = bench.run("flattened_probe", kind);
-        int different = 0;
-        for (std::size_t i = 0; i < kCount; ++i) {
-            const glm::vec4 expected = shared::probe(kind, numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
-            for (int c = 0; c < 4; ++c) {
-                const bool wraps = (kind == 6 && c == 3) || (kind == 8 && c < 2);
-                if (wraps && std::abs(results[i][c] - expected[c]) > 0.999f) continue;
-                if (near(results[i][c], expected[c])) continue;
-                if (++different <= 3) {
-                    ADD_FAILURE() << "formula " << kind << " case " << i << " part " << c << ": device "
-                                  << results[i][c] << ", CPU " << expected[c];
-                }
-            }
-        }
-        EXPECT_EQ(different, 0) << "of formula " << kind;
-    }
+    for (int kind = 0; kind < shared::kProbeKinds; ++kind) expect_as_on_cpu(kind, bench.run("flattened_probe", kind));
 }
 
 INSTANTIATE_TEST_SUITE_P(Languages, ShaderLibraryParity, testing::Values(kGlsl, kHlsl),
@@ -418,7 +329,7 @@ TEST_F(ShaderPage, ExamplesGiveTheSameInBothLanguages)
     const Includes texts = examples();
     EXPECT_EQ(texts.size(), 2 * std::size(kJobs)) << "an example of the page that is not run";
     const Includes files = library_files();
-    Bench bench;
+    FormulaBench bench;
     std::vector<std::vector<glm::vec4>> all;
     for (const Job& job : kJobs) {
         ASSERT_TRUE(texts.count(job.glsl)) << job.glsl;
@@ -432,9 +343,9 @@ TEST_F(ShaderPage, ExamplesGiveTheSameInBothLanguages)
         const std::vector<glm::vec4> first = bench.run(job.glsl, 0);
         const std::vector<glm::vec4> second = bench.run(job.hlsl, 0);
         int different = 0;
-        for (std::size_t i = 0; i < kCount; ++i) {
+        for (std::size_t i = 0; i < kBenchCases; ++i) {
             for (int c = 0; c < 4; ++c) {
-                if (near(second[i][c], first[i][c])) continue;
+                if (near_enough(second[i][c], first[i][c])) continue;
                 if (++different <= 3) {
                     ADD_FAILURE() << job.glsl << " case " << i << " part " << c << ": GLSL " << first[i][c]
                                   << ", HLSL " << second[i][c];
@@ -448,12 +359,12 @@ TEST_F(ShaderPage, ExamplesGiveTheSameInBothLanguages)
     const auto count = [&all](std::size_t job, const auto& is) {
         return std::count_if(all[job].begin(), all[job].end(), is);
     };
-    EXPECT_GT(count(0, [](const glm::vec4& r) { return r.w > 0.9f && r.z < 0.1f; }), kCount / 20);
-    EXPECT_GT(count(0, [](const glm::vec4& r) { return r.w < 0.1f; }), kCount / 20);
-    EXPECT_GT(count(1, [](const glm::vec4& r) { return r.y < 0.9999f; }), kCount / 20);
+    EXPECT_GT(count(0, [](const glm::vec4& r) { return r.w > 0.9f && r.z < 0.1f; }), kBenchCases / 20);
+    EXPECT_GT(count(0, [](const glm::vec4& r) { return r.w < 0.1f; }), kBenchCases / 20);
+    EXPECT_GT(count(1, [](const glm::vec4& r) { return r.y < 0.9999f; }), kBenchCases / 20);
     EXPECT_EQ(count(1, [](const glm::vec4& r) { return r.y < 0.5f; }), 0);
-    EXPECT_GT(count(2, [](const glm::vec4& r) { return r.w > 0.9f && r.y > 0.8f; }), kCount / 20);
-    EXPECT_GT(count(2, [](const glm::vec4& r) { return r.w < 0.1f; }), kCount / 20);
+    EXPECT_GT(count(2, [](const glm::vec4& r) { return r.w > 0.9f && r.y > 0.8f; }), kBenchCases / 20);
+    EXPECT_GT(count(2, [](const glm::vec4& r) { return r.w < 0.1f; }), kBenchCases / 20);
 }
 
 // ---- where others begin ------------------------------------------------------------------------
