@@ -96,6 +96,14 @@ Masked masked_lamps(const scene::Scene& scene, const BakeConditions& conditions,
     std::vector<bool> wanted;
     for (const scene::Light& lamp : scene.lights)
         wanted.push_back(conditions.mask_lamps.empty() || glob_matches(conditions.mask_lamps, lamp.name));
+    if (!conditions.mask_lamps.empty() && std::find(wanted.begin(), wanted.end(), true) == wanted.end()) {
+        std::vector<std::string> names;
+        for (const scene::Light& lamp : scene.lights) {
+            if (std::find(names.begin(), names.end(), lamp.name) == names.end()) names.push_back(lamp.name);
+        }
+        throw Error("light map: no lamp is called \"" + conditions.mask_lamps + "\"." + did_you_mean(conditions.mask_lamps, names),
+                    names.empty() ? "The scene has no lamps: leave --mask-lamps out." : "Lamps of the scene: " + join_words(names) + ".");
+    }
     Masked masked;
     masked.channels = scene::mask_channels(scene.lights, wanted);
     if (sunny) masked.lamps.push_back(sun_of(conditions));

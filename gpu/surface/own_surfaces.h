@@ -21,6 +21,8 @@ public:
     /// The number of one of those names, from 1; 0 of "".
     std::uint32_t number_of(const std::string& name) const;
     bool any() const { return !own_.empty(); }
+    /// NAME of the one of that number, from 1.
+    const std::string& name_of(std::uint32_t number) const { return own_[number - 1].name; }
     /// Whether that one moves vertices: it defines NAME_move.
     bool moves(std::uint32_t number) const;
 

@@ -177,6 +177,7 @@ TEST(LightBake, AShadowMaskHoldsLampsByTheirChannels)
     }));
     EXPECT_EQ(bake(scene, {.sky_lux = 0.0, .shadow_mask = true, .mask_lamps = "dim"}).channels,
               (std::vector<int>{0, 0, 0, 0, 1}));
+    EXPECT_THROW(bake(scene, {.sky_lux = 0.0, .shadow_mask = true, .mask_lamps = "dimm"}), Error);
 }
 
 }  // namespace

@@ -248,5 +248,22 @@ TEST_F(OwnMove, WrongOnesAreNamed)
     EXPECT_NE(said.find("nothing"), std::string::npos) << said;
 }
 
+TEST_F(OwnMove, WhatIsNoNumberIsNamed)
+{
+    Material m = plain_material(glm::vec3(0.5f));
+    m.surface = surface("lost", "return at.normal * (at.position.x > 0.0 ? 1.0 / (at.position.y - at.position.y) : 0.0);");
+    renderer->load(scene_of({sheet(2.0f, 4)}, {m}), {});
+    Frame f = frame();
+    f.camera = look({0, 6, 0}, {0, 0, 0});
+    try {
+        renderer->render(f);
+        FAIL() << "it was drawn";
+    } catch (const Error& error) {
+        const std::string said = error.what();
+        EXPECT_NE(said.find("lost.glsl"), std::string::npos) << said;
+        EXPECT_NE(said.find(" of 25 vertices"), std::string::npos) << said;
+    }
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

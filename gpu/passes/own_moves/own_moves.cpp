@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 
+#include "base/error.h"
 #include "gpu/passes/own_moves/own_move_io.h"
 
 namespace petrichor::gpu {
@@ -64,6 +65,17 @@ std::vector<glm::vec4> points_of(const std::vector<OwnMover>& movers, std::size_
         }
     }
     return points;
+}
+
+void check_moved(std::span<const MovedVertex> moved, const std::string& name)
+{
+    const auto lost = std::count_if(moved.begin(), moved.end(), [](const MovedVertex& to) {
+        return !std::isfinite(to.by_m.x + to.by_m.y + to.by_m.z);
+    });
+    if (lost == 0) return;
+    throw Error("surface " + name + ".glsl: " + name + "_move gives no finite way at " + std::to_string(lost) + " of " +
+                    std::to_string(moved.size()) + " vertices",
+                "Look for a division by zero, a root or logarithm of what is negative, or a number beyond 1e38.");
 }
 
 }  // namespace
@@ -160,7 +172,12 @@ bool OwnMoves::move(const Device& device, PipelineCache& pipelines, DescriptorAr
     graph.add(std::move(pass));
     graph.read_back({moved_.get()});
     graph.execute(device, pipelines, descriptors);
-    scene.move_own(device, {reinterpret_cast<const MovedVertex*>(moved_->mapped), moved_->size / sizeof(MovedVertex)});
+    const std::span<const MovedVertex> moved{reinterpret_cast<const MovedVertex*>(moved_->mapped), moved_->size / sizeof(MovedVertex)};
+    for (const OwnMover& mover : scene.own_movers()) {
+        check_moved(moved.subspan(mover.first_vertex, mover.shape->positions.size()),
+                    scene.own_surfaces().name_of(scene.materials()[mover.material].own_surface));
+    }
+    scene.move_own(device, moved);
     return true;
 }
 
