@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
-#include "scene/snow/detail/circle_plane.h"
+#include "scene/snow/detail/one_ground.h"
 
 namespace petrichor::scene::detail {
 namespace {
@@ -18,15 +17,9 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-constexpr float kWideGround_m2 = 0.6f;  // ground that hangs together and is no larger keeps its shape
-constexpr float kWidePlateau_m2 = 0.25f;  // what stands higher than all around it and is no larger is a thing
-constexpr float kStep_m = 0.02f;        // from cell to cell: lower ones are relief
-constexpr float kSteepStep = 0.7f;      // .. and no steeper than this they are slopes
+constexpr float kSteepStep = 0.7f;      // steps from cell to cell that are no steeper are slopes
 constexpr float kReach_m = 0.22f;       // so far from a step the sheet reaches
 constexpr float kFade_m = 0.07f;        // .. and goes under the caps along the last of it
-constexpr int kThing = 3;               // cells: what is narrower than twice this and one is no ground
-constexpr int kJoint = 3;               // cells without ground between ground are a joint
-constexpr float kWidth = 1.6f;          // radius of the circle, over the depth, as that of the caps
 constexpr float kSteepest = 0.87f;      // y of the normal of the smoothed ground: steeper is no place for a bank
 constexpr float kEdge_m = 0.1f;         // from a deep edge: none within this, a whole one from twice as far on
 constexpr float kFine_m = 3.0f;         // as fine as the sheet's cells up to here from an eye, half as fine beyond
@@ -35,214 +28,6 @@ constexpr float kFarthest_m = 11.0f;
 constexpr float kOfGround_m = 0.04f;
 constexpr float kHolds = 0.02f;         // share of the depth: less is no ground that snow lies on
 
-class Groups {
-public:
-    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t root(std::uint32_t i) const
-    {
-        while (parent_[i] != i) i = parent_[i];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b)
-    {
-        a = shortened(a);
-        b = shortened(b);
-        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-    }
-    /// Members of each group, at its root. Afterwards each member's parent is its root.
-    std::vector<std::uint32_t> sizes()
-    {
-        std::vector<std::uint32_t> count(parent_.size(), 0);
-        for (std::uint32_t i = 0; i < parent_.size(); ++i) ++count[parent_[i] = root(i)];
-        return count;
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-
-    std::uint32_t shortened(std::uint32_t i)
-    {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-};
-
-// One ground: of each cell the highest layer of ground that hangs together over steps and is wide.
-class OneGround {
-public:
-    explicit OneGround(const Sheet& sheet) : sheet_(&sheet), width_(sheet.width()), height_(sheet.height())
-    {
-        const auto& layers = sheet.layers();
-        // Over a joint or a bevel too.
-        const auto beside = [&](const auto& visit) {
-            for (int z = 0; z < height_; ++z)
-                for (int x = 0; x < width_; ++x)
-                    for (int k = 1; k <= kJoint; ++k)
-                        for (const ivec2 to : {ivec2(x + k, z), ivec2(x, z + k)}) {
-                            if (to.x >= width_ || to.y >= height_) continue;
-                            for (std::uint32_t a = sheet.first(x, z); a != Sheet::kNoLayer; a = layers[a].next)
-                                for (std::uint32_t b = sheet.first(to.x, to.y); b != Sheet::kNoLayer; b = layers[b].next)
-                                    if (std::abs(layers[a].height_m - layers[b].height_m) < kHighestStep_m) visit(a, b);
-                        }
-        };
-        Groups grounds(layers.size()), plateaus(layers.size());
-        beside([&](std::uint32_t a, std::uint32_t b) {
-            grounds.join(a, b);
-            if (std::abs(layers[a].height_m - layers[b].height_m) < kStep_m) plateaus.join(a, b);
-        });
-        const float cell_m2 = sheet.cell_m() * sheet.cell_m();
-        const std::vector<std::uint32_t> cells = grounds.sizes(), level = plateaus.sizes();
-        const auto wide_plateau = [&](std::uint32_t i) {
-            return static_cast<float>(level[plateaus.root(i)]) * cell_m2 >= kWidePlateau_m2;
-        };
-        // A bevel or a slot lies by what is higher and wide; what does not is the top of a thing.
-        std::vector<bool> beneath(layers.size(), false);
-        beside([&](std::uint32_t a, std::uint32_t b) {
-            if (layers[b].height_m < layers[a].height_m) std::swap(a, b);
-            if (wide_plateau(b)) beneath[plateaus.root(a)] = true;
-        });
-        const auto is_ground = [&](std::uint32_t i) {
-            return static_cast<float>(cells[grounds.root(i)]) * cell_m2 >= kWideGround_m2 &&
-                   (wide_plateau(i) || beneath[plateaus.root(i)]);
-        };
-        top_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), Sheet::kNoLayer);
-        for (int z = 0; z < height_; ++z) {
-            for (int x = 0; x < width_; ++x) {
-                std::uint32_t& top = top_[index(x, z)];
-                for (std::uint32_t k = sheet.first(x, z); k != Sheet::kNoLayer; k = layers[k].next) {
-                    if (!is_ground(k)) continue;
-                    if (top == Sheet::kNoLayer || layers[k].height_m > layers[top].height_m) top = k;
-                }
-            }
-        }
-        leave_out_things(is_ground);
-        close_joints();
-    }
-
-    bool found(int x, int z) const { return at(x, z) != nullptr; }
-    float height_m(int x, int z) const { return heights_[index(x, z)]; }
-    std::size_t index(int x, int z) const { return static_cast<std::size_t>(z) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x); }
-    bool inside(int x, int z) const { return x >= 0 && z >= 0 && x < width_ && z < height_; }
-    const Sheet::Layer* at(int x, int z) const
-    {
-        if (!inside(x, z)) return nullptr;
-        const std::uint32_t top = top_[index(x, z)];
-        return top == Sheet::kNoLayer ? nullptr : &sheet_->layers()[top];
-    }
-    int width() const { return width_; }
-    int height() const { return height_; }
-
-    struct Smoothed {
-        float height_m = 0.0f;
-        vec2 slope{0.0f};
-        float open = 0.0f;  ///< of what is open: what lies below bars counts little
-        float whole = 0.0f;
-    };
-    // By the plane through what lies in a circle.
-    Smoothed smoothed(int x, int z, float depth_m, float own_m, const vec2& place) const
-    {
-        const vec2 off = (place - sheet_->place(x, z)) / sheet_->cell_m();
-        const float reach = std::max(kWidth * depth_m / sheet_->cell_m(), 1.5f);
-        const int around = static_cast<int>(reach + 0.5f);
-        const int stride = reach > 9.0f ? 2 : 1;
-        CirclePlane plane;
-        float open = 0.0f, opens = 0.0f, all = 0.0f;
-        for (int j = -around; j <= around; j += stride) {
-            for (int i = -around; i <= around; i += stride) {
-                const vec2 way = (vec2(static_cast<float>(i), static_cast<float>(j)) - off) / reach;
-                const float in = 1.0f - glm::dot(way, way);
-                if (!(in > 0.0f)) continue;
-                const float w = in * in;
-                all += w;
-                const Sheet::Layer* here = at(x + i, z + j);
-                if (here == nullptr) continue;
-                const float rise = heights_[index(x + i, z + j)] - own_m;
-                if (std::abs(rise) > 2.0f * kHighestStep_m) continue;
-                plane.add(w, way, rise);
-                open += w * here->open;
-                opens += w * here->open * here->open;
-            }
-        }
-        if (!(plane.weight() > 0.0f)) return {own_m};
-        const CirclePlane::Fit fit = plane.fit();
-        return {own_m + fit.rise_m, fit.slope_m / (reach * sheet_->cell_m()), opens / std::max(open, 1.0e-6f), plane.weight() / all};
-    }
-
-private:
-    const Sheet* sheet_;
-    int width_, height_;
-    std::vector<std::uint32_t> top_;
-    std::vector<float> heights_;  // what lies in a joint is as high as its stones
-
-    // What is narrower than a few cells and stands over the ground around is a thing on it: the ground goes on below.
-    template <class Wide>
-    void leave_out_things(const Wide& is_wide)
-    {
-        const std::size_t count = top_.size();
-        std::vector<float> own(count, 1.0e9f);
-        for (std::size_t i = 0; i < count; ++i)
-            if (top_[i] != Sheet::kNoLayer) own[i] = sheet_->layers()[top_[i]].height_m;
-        // The lowest around, then the highest of those, along rows and columns; where there is no ground nothing counts.
-        const auto filtered = [&](const std::vector<float>& from, bool lowest) {
-            std::vector<float> rows(count), both(count);
-            const auto pass = [&](const std::vector<float>& in, std::vector<float>& out, int dx, int dz) {
-                for (int z = 0; z < height_; ++z) {
-                    for (int x = 0; x < width_; ++x) {
-                        float best = 1.0e9f;
-                        for (int k = -kThing; k <= kThing; ++k) {
-                            if (!inside(x + k * dx, z + k * dz)) continue;
-                            const float there = in[index(x + k * dx, z + k * dz)];
-                            if (there > 1.0e8f) continue;
-                            best = best > 1.0e8f ? there : lowest ? std::min(best, there) : std::max(best, there);
-                        }
-                        out[index(x, z)] = best;
-                    }
-                }
-            };
-            pass(from, rows, 1, 0);
-            pass(rows, both, 0, 1);
-            return both;
-        };
-        const std::vector<float> opened = filtered(filtered(own, true), false);
-        for (int z = 0; z < height_; ++z) {
-            for (int x = 0; x < width_; ++x) {
-                const std::size_t i = index(x, z);
-                if (top_[i] == Sheet::kNoLayer || !(own[i] - opened[i] > kStep_m)) continue;
-                for (std::uint32_t k = sheet_->first(x, z); k != Sheet::kNoLayer; k = sheet_->layers()[k].next) {
-                    const auto off = [&](std::uint32_t layer) { return std::abs(sheet_->layers()[layer].height_m - opened[i]); };
-                    if (is_wide(k) && off(k) < off(top_[i])) top_[i] = k;
-                }
-            }
-        }
-    }
-
-    void close_joints()
-    {
-        heights_.assign(top_.size(), 0.0f);
-        std::vector<float> highest(top_.size(), -1.0e9f);
-        const auto around = [&](int x, int z, const auto& visit) {
-            for (int k = 0; k < 9; ++k)
-                if (inside(x + k % 3 - 1, z + k / 3 - 1)) visit(x + k % 3 - 1, z + k / 3 - 1);
-        };
-        for (int z = 0; z < height_; ++z)
-            for (int x = 0; x < width_; ++x)
-                around(x, z, [&](int i, int j) {
-                    if (const Sheet::Layer* there = at(i, j)) highest[index(x, z)] = std::max(highest[index(x, z)], there->height_m);
-                });
-        for (int z = 0; z < height_; ++z) {
-            for (int x = 0; x < width_; ++x) {
-                const Sheet::Layer* own = at(x, z);
-                if (own == nullptr) continue;
-                float lowest = 1.0e9f;
-                around(x, z, [&](int i, int j) {
-                    if (highest[index(i, j)] > -1.0e8f) lowest = std::min(lowest, highest[index(i, j)]);
-                });
-                heights_[index(x, z)] = lowest - own->height_m < kHighestStep_m ? std::max(lowest, own->height_m) : own->height_m;
-            }
-        }
-    }
-};
-
 // How high a step is that a cell lies at; 0 at none.
 float step_at(const OneGround& ground, int x, int z, float cell_m)
 {
@@ -250,11 +35,11 @@ float step_at(const OneGround& ground, int x, int z, float cell_m)
     float step = 0.0f;
     for (const ivec2 way : {ivec2(1, 0), ivec2(0, 1), ivec2(-1, 0), ivec2(0, -1)}) {
         int apart = 1;
-        while (!ground.found(x + apart * way.x, z + apart * way.y) && apart < kJoint) ++apart;
+        while (!ground.found(x + apart * way.x, z + apart * way.y) && apart < OneGround::kJoint) ++apart;
         if (!ground.found(x + apart * way.x, z + apart * way.y)) continue;
         const float rise = std::abs(ground.height_m(x + apart * way.x, z + apart * way.y) - ground.height_m(x, z));
         if (rise > kHighestStep_m) continue;
-        if (rise > kStep_m && rise > kSteepStep * cell_m * static_cast<float>(apart)) step = std::max(step, rise);
+        if (rise > OneGround::kStep_m && rise > kSteepStep * cell_m * static_cast<float>(apart)) step = std::max(step, rise);
     }
     return step;
 }

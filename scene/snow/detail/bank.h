@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/snow/detail/borders.h"
+#include "scene/snow/detail/one_ground.h"
 #include "scene/snow/detail/sheet.h"
 #include "scene/snow/snow_caps.h"
 #include "scene/subdivide/subdivide.h"
@@ -31,8 +32,6 @@ struct BankPart {
 ///   open   borders beyond which the ground falls away: caps are round there, and no bank is near
 std::vector<BankPart> lay_banks(SnowCaps& caps, const CutMesh& mesh, const Sheet& sheet, const std::vector<Border>& open,
                                 const SnowCapOptions& options);
-
-inline constexpr float kHighestStep_m = 0.25f;
 
 }  // namespace petrichor::scene::detail
 
