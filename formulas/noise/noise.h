@@ -37,9 +37,10 @@ SHARED_FN float dither(ivec2 pixel, uint sample_index)
     return fract(spatial + 0.61803399f * float(sample_index));
 }
 
+// 0 .. period - 1. Never the remainder of a negative number: GLSL leaves it open, and devices differ.
 SHARED_FN int wrapped(int i, int period)
 {
-    return ((i % period) + period) % period;
+    return i >= 0 ? i % period : period - 1 - (-1 - i) % period;
 }
 
 // Value noise on a lattice that repeats every `period` cells.

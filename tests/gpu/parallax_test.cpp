@@ -118,7 +118,7 @@ TEST_F(ParallaxTest, RingsLieOnTheWaterInTheRelief)
         renderer->load(scene, {texture_of("ramp", [](int x) { return 2 * x; }),
                                texture_of("height", [](int) { return 0; })});
         Frame frame;
-        frame.camera = look({0.9f, 2.6f, 0.0f}, {0, 0, 0}, 0.35f);
+        frame.camera = look({0.7f, 2.0f, 0.0f}, {0, 0, 0}, 0.35f);
         frame.settings.width = frame.settings.height = kSize;
         frame.settings.samples = 1;
         frame.settings.aovs = {"cover_normal"};

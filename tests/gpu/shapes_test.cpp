@@ -207,7 +207,7 @@ TEST_F(MarchedShapes, ShelterTheGroundBelow)
     Frame frame = raining();
     frame.camera = look({0, 0.6f, 4.0f}, {0, 0.2f, 0}, 0.7f);
     for (const int kind : {SHAPE_MANDELBULB, SHAPE_SIERPINSKI, SHAPE_MENGER, SHAPE_SPHERE, SHAPE_TORUS}) {
-        MarchedShape shape = shape_of(kind, placed({0, 2.6f, 0}, 1.2f));
+        MarchedShape shape = shape_of(kind, placed({0, 2.6f, 0}, 1.5f));
         if (kind == SHAPE_TORUS) shape.half = {1.0f, 0.45f, 1.0f};
         const RenderResult r = shot(with_shape(shape), frame);
         const RenderResult open = shot(floor_alone(), frame);

@@ -7,42 +7,49 @@
 #include "gpu/passes/sky/sky_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 
-layout(local_size_x = 15) in;  // kHarmonics + kSkyAxes
+const int kSums = kHarmonics + kSkyAxes;
+const int kParts = 16;  // of the rows of the cube: a GPU has little to do with one sum a lane
+layout(local_size_x = 240) in;  // kSums * kParts
 layout(binding = SKY_SOURCE) uniform samplerCube sky;
 layout(binding = SKY_TARGET, scalar) writeonly buffer Output { SkyLight result; };
 
 layout(push_constant, scalar) uniform Push { SkyLightParams params; };
 
+shared vec4 partial[kSums * kParts];
 shared vec3 coefficients[kHarmonics];
 shared vec3 exact[kSkyAxes];
 
 void main()
 {
-    const int i = int(gl_LocalInvocationID.x);
+    const int i = int(gl_LocalInvocationID.x) % kSums;
+    const int part = int(gl_LocalInvocationID.x) / kSums;
     const bool axis = i >= kHarmonics;
     const vec3 along = sky_axis(axis ? i - kHarmonics : 0);
     const int n = int(params.face_size);
-    vec3 sum = vec3(0.0);
-    float weight = 0.0;
-    for (int face = 0; face < 6; ++face) {
-        for (int y = 0; y < n; ++y) {
-            for (int x = 0; x < n; ++x) {
-                const vec2 st = (vec2(x, y) + 0.5) / params.face_size * 2.0 - 1.0;
-                const float w = cube_texel_weight(st);
-                const vec3 d = normalize(cube_direction(face, st));
-                sum += textureLod(sky, d, params.mip).rgb * (w * (axis ? max(dot(d, along), 0.0) : harmonic(i, d)));
-                weight += w;
-            }
+    vec4 sum = vec4(0.0);  // and the weight
+    for (int row = part; row < 6 * n; row += kParts) {
+        for (int x = 0; x < n; ++x) {
+            const vec2 st = (vec2(x, row % n) + 0.5) / params.face_size * 2.0 - 1.0;
+            const float w = cube_texel_weight(st);
+            const vec3 d = normalize(cube_direction(row / n, st));
+            const float factor = w * (axis ? max(dot(d, along), 0.0) : harmonic(i, d));
+            sum += vec4(textureLod(sky, d, params.mip).rgb * factor, w);
         }
     }
-    if (axis) {
-        exact[i - kHarmonics] = sum * (4.0 / weight);
-    } else {
-        const vec3 coefficient = sum * (12.566371 / weight) * cosine_band(i);
-        coefficients[i] = coefficient;
-        result.harmonics[i] = vec4(coefficient, 0.0);
+    partial[part * kSums + i] = sum;
+    barrier();
+    if (part == 0) {
+        for (int k = 1; k < kParts; ++k) sum += partial[k * kSums + i];
+        if (axis) {
+            exact[i - kHarmonics] = sum.rgb * (4.0 / sum.w);
+        } else {
+            const vec3 coefficient = sum.rgb * (12.566371 / sum.w) * cosine_band(i);
+            coefficients[i] = coefficient;
+            result.harmonics[i] = vec4(coefficient, 0.0);
+        }
     }
     barrier();
+    if (part != 0) return;
     if (axis) {
         vec3 told = vec3(0.0);
         for (int k = 0; k < kHarmonics; ++k) told += coefficients[k] * harmonic(k, along);
