@@ -112,10 +112,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 1) {
         const SnowCover s = snow_cover(a.x, a.y, 2.0f * a.z - 1.0f, 2.0f * a.w, b.x, b.y, b.z, b.w, 0.3f * c.x);
         const vec2 across = place_across(300.0f * vec2(a.x, a.y));
+        const SlopeRelief slopes = slope_relief(vec3(across.x, 40.0f * b.x, across.y), 3.0f * c.y * c.y);
         return vec4(s.snow, s.melt,
-                    snow_rests(2.0f * a.z - 1.0f) + mask_of_two(b.y, b.z, b.w) + snow_holds(across, 5.0f * a.w * a.w),
+                    snow_rests(2.0f * a.z - 1.0f) + mask_of_two(b.y, b.z, b.w) + snow_holds(slopes),
                     snow_mask_blurred(20.0f * c.y, vec2(0.1f + c.z, 2.0f * c.w)) +
-                        snow_caught(vec3(across.x, 40.0f * b.x, across.y), b.y, 3.0f * c.y * c.y));
+                        snow_caught(b.y, slopes));
     }
     if (kind == 2) {
         return vec4(melt_wetness(a.x, a.y, a.z), snow_height_factor(20.0f * a.w, 5.0f, 10.0f * b.x) +

@@ -64,6 +64,20 @@ SHARED_FN float endless_noise(vec2 p, uint seed)
     return mix(mix(a, b, u.x), mix(c, d, u.x), u.y);
 }
 
+// The same in space.
+SHARED_FN float endless_noise_3(vec3 p, uint seed)
+{
+    const vec3 base = floor(p);
+    const vec3 f = p - base;
+    const vec3 u = f * f * f * (f * (f * 6.0f - 15.0f) + 10.0f);
+    const uint x = uint(int(base.x)), y = uint(int(base.y));
+    const uint low = hash_u(uint(int(base.z)) + seed * 0x9e3779b9u), high = hash_u(uint(int(base.z)) + 1u + seed * 0x9e3779b9u);
+    const uint a = hash_u(y + low), b = hash_u(y + 1u + low), c = hash_u(y + high), d = hash_u(y + 1u + high);
+    const float near = mix(mix(hash_f(x + a), hash_f(x + 1u + a), u.x), mix(hash_f(x + b), hash_f(x + 1u + b), u.x), u.y);
+    const float far = mix(mix(hash_f(x + c), hash_f(x + 1u + c), u.x), mix(hash_f(x + d), hash_f(x + 1u + d), u.x), u.y);
+    return mix(near, far, u.z);
+}
+
 SHARED_FN float tileable_noise(vec2 p, int period, uint seed)
 {
     const vec2 base = floor(p);

@@ -158,28 +158,43 @@ SHARED_FN float mask_of_two(float first, float second, float mean)
     return saturate(mean + 0.70710678f * (first - mean + second - mean));
 }
 
-// What snow_cover adds to the slope of wide ground: tufts and steps that no mesh has hold it, smooth places shed it, so
-// that it ends over some degrees and not at one. 0 in the mean, less the wider the pixel is.
-SHARED_FN float snow_holds(vec2 xz, float width_m)
+// How far the slopes of wide ground lie off those of its mesh: tufts, clods, steps and terraces that no mesh has.
+struct SlopeRelief {
+    float flatter;  // in deviations of the whole relief; its mean is 0
+    float lost;     // share of the variance that the pixel has lost
+};
+
+// In space, so that nothing is drawn out down a slope, and flat, as steps along the contour lines are. Four octaves, from
+// terraces of 7 m to tufts of a foot: a border of snow has parts at each of these. width_m: of the pixel on the ground.
+SHARED_FN SlopeRelief slope_relief(vec3 position_m, float width_m)
 {
-    const float tufts = (endless_noise(xz / 0.9f, 241u) - 0.5f) * sqrt(1.0f - variance_lost(width_m, 0.6f));
-    const float steps = (endless_noise(xz / 4.3f + 3.1f, 251u) - 0.5f) * sqrt(1.0f - variance_lost(width_m, 2.6f));
-    return 0.3f * tufts + 0.4f * steps;
+    const vec3 p = vec3(0.8f * position_m.x + 0.6f * position_m.z, 1.7f * position_m.y, 0.8f * position_m.z - 0.6f * position_m.x);
+    const float terraces = variance_lost(width_m, 2.6f), steps = variance_lost(width_m, 1.5f);
+    const float clods = variance_lost(width_m, 0.5f), tufts = variance_lost(width_m, 0.17f);
+    const float sum = 0.46f * sqrt(1.0f - terraces) * (endless_noise_3(p / 7.0f, 241u) - 0.5f) +
+                      0.54f * sqrt(1.0f - steps) * (endless_noise_3(p / 2.4f + 5.2f, 251u) - 0.5f) +
+                      0.54f * sqrt(1.0f - clods) * (endless_noise_3(p / 0.83f + 9.7f, 261u) - 0.5f) +
+                      0.46f * sqrt(1.0f - tufts) * (endless_noise_3(p / 0.29f + 2.6f, 271u) - 0.5f);
+    SlopeRelief relief;
+    relief.flatter = sum / 0.2f;
+    relief.lost = 0.21f * (terraces + tufts) + 0.29f * (steps + clods);
+    return relief;
 }
 
-// What steep wide ground catches in its relief, 0..1, of what lies on level ground: it is not one slope but steps and
-// tufts, whose slopes lie around that of the mesh by 12 degrees, and what of them is flatter than 55 degrees holds
-// snow (ours). So a third of the ground holds it at 60 degrees, a tenth at 70, and it lies along the contour lines.
-// up: y of the normal of the mesh. width_m: of the pixel; half of the variance is lost at 0.7 m.
-SHARED_FN float snow_caught(vec3 position_m, float up, float width_m)
+// What snow_cover adds to the slope of wide ground: its relief holds snow here and sheds it there, so that it ends over
+// some degrees and not at one. 0 in the mean, less the wider the pixel is.
+SHARED_FN float snow_holds(SlopeRelief relief)
 {
-    const float y = 2.2f * position_m.y;
-    const float one = endless_noise(vec2(0.8f * position_m.x + 0.6f * position_m.z, y) / 1.1f, 261u);
-    const float other = endless_noise(vec2(0.8f * position_m.z - 0.6f * position_m.x, y) / 1.1f + 5.2f, 271u);
-    const float deviations = (0.5f * (one + other) - 0.5f) / 0.16f;
-    const float lost = variance_lost(width_m, 0.7f);
-    const float soft = 0.05f + 0.3f * sqrt(lost);
-    return smooth_edge(0.57f - soft, 0.57f + soft, up + 0.18f * deviations * sqrt(1.0f - lost));
+    return clamp(0.11f * relief.flatter, -0.35f, 0.35f);
+}
+
+// What steep wide ground catches in its relief, 0..1, of what lies on level ground: its slopes lie around that of the mesh
+// by 13 degrees, and what of them is flatter than 55 degrees holds snow, the less the steeper (ours). So a third of the
+// ground holds it at 60 degrees, a tenth at 70. up: y of the normal of the mesh.
+SHARED_FN float snow_caught(float up, SlopeRelief relief)
+{
+    const float soft = 0.08f + 0.27f * sqrt(relief.lost);
+    return smooth_edge(0.565f - soft, 0.565f + soft, up + 0.19f * relief.flatter);
 }
 
 // `blurred` of snow_cover for the masks of weather_maps.h: their mean 0.7067 and deviation 0.135 are those of

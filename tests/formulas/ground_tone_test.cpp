@@ -165,12 +165,36 @@ TEST(SnowMaskOfTwo, RepeatsNowhere)
 // Steep wide ground: where snow ends is not one slope but some degrees of them, and as much of it lies as before.
 TEST(SnowHolds, IsNothingInTheMeanAndLessInAWidePixel)
 {
-    const Spread s = spread_of(40000, [](vec2 at) { return snow_holds(at, 0.0f); });
+    const auto holds = [](vec2 at, float width_m) { return snow_holds(slope_relief(vec3(at.x, 0.7f * at.x, at.y), width_m)); };
+    const Spread s = spread_of(40000, [&](vec2 at) { return holds(at, 0.0f); });
     EXPECT_NEAR(s.mean, 0.0, 0.005);
     EXPECT_GT(s.deviation, 0.05);
     EXPECT_LE(s.most, 0.35);
     EXPECT_GE(s.least, -0.35);
-    EXPECT_LT(spread_of(4000, [](vec2 at) { return snow_holds(at, 30.0f); }).deviation, 0.2 * s.deviation);
+    EXPECT_LT(spread_of(4000, [&](vec2 at) { return holds(at, 30.0f); }).deviation, 0.2 * s.deviation);
+}
+
+// Parts at each of its sizes; and nothing is drawn out down a slope, however steep: steps down it find other ground sooner than
+// steps along it.
+TEST(SlopeRelief, HasPartsOfManySizesAndNoStreaks)
+{
+    const auto flatter = [](vec3 p) { return slope_relief(p, 0.0f).flatter; };
+    for (const float degrees : {35.0f, 60.0f, 80.0f, 89.0f}) {
+        const float rise = std::tan(degrees * 0.01745329f);
+        const auto on_slope = [&](vec2 at) { return vec3(at.x, rise * at.y, at.y); };
+        const Spread all = spread_of(20000, [&](vec2 at) { return flatter(on_slope(at)); });
+        EXPECT_NEAR(all.mean, 0.0, 0.03) << degrees;
+        EXPECT_NEAR(all.deviation, 1.0, 0.07) << degrees;
+        double before = 0.0;
+        for (const float step_m : {0.05f, 0.3f, 1.0f, 3.0f}) {
+            const vec3 down = step_m * vec3(0.0f, rise, 1.0f) / std::sqrt(1.0f + rise * rise);
+            const double along = spread_of(20000, [&](vec2 at) { return flatter(on_slope(at) + vec3(step_m, 0, 0)) - flatter(on_slope(at)); }).deviation;
+            const double below = spread_of(20000, [&](vec2 at) { return flatter(on_slope(at) + down) - flatter(on_slope(at)); }).deviation;
+            EXPECT_GT(below, 0.99 * along) << degrees << " " << step_m;
+            EXPECT_GT(along, before + 0.12) << degrees << " " << step_m;
+            before = along;
+        }
+    }
 }
 
 // A third of the ground holds snow at 60 degrees, a tenth at 70; a wide pixel has the mean of its places.
@@ -178,7 +202,7 @@ TEST(SnowCaught, ThinsOutOverTheSlopesOfItsRelief)
 {
     const auto share = [](float degrees, float width_m) {
         const float up = std::cos(degrees * 0.01745329f);
-        return spread_of(20000, [&](vec2 at) { return snow_caught(vec3(at.x, 0.71f * at.x - 0.4f * at.y, at.y), up, width_m); });
+        return spread_of(20000, [&](vec2 at) { return snow_caught(up, slope_relief(vec3(at.x, 0.71f * at.x - 0.4f * at.y, at.y), width_m)); });
     };
     EXPECT_GT(share(35, 0).mean, 0.9);
     EXPECT_NEAR(share(60, 0).mean, 0.35, 0.06);

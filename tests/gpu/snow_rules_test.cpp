@@ -98,6 +98,38 @@ TEST_F(SnowRules, OfVerticesKnowNoMaskAndNoHeight)
               shared::snow_cover_of_slope(0.075f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f).snow);
 }
 
+// Smoothed normals at the upper edge of a wall look half up, and yet it is a wall: no streaks run down from there.
+TEST_F(SnowRules, AWallIsBareWhateverItsNormalsSay)
+{
+    Frame frame = from_above({"snow"}, 0.8f);
+    frame.camera = look({0, 1, 2}, {0, 1, 0});
+    frame.camera.orthographic_height_m = 2.0f;
+    const Material m = plain_material(glm::vec3(0.3f));
+    const auto leaning = [&](float back_m) {
+        Primitive p = quad({-1, 0, back_m}, {2, 0, 0}, {0, 2, -2.0f * back_m});
+        p.normals.assign(4, glm::normalize(glm::vec3(0, 0.75f, 0.66f)));
+        return mean(shot(scene_of({p}, {m}), frame), "snow");
+    };
+    EXPECT_EQ(leaning(0.0f), 0.0f);
+    EXPECT_GT(leaning(0.8f), 0.2f) << "a slope with these normals is none";
+}
+
+// What of the relief of a wall looks up, as tops of its stones, holds it; the same map on level ground takes nothing away.
+TEST_F(SnowRules, LiesOnTheLedgesOfAWall)
+{
+    Frame frame = from_above({"snow"}, 0.8f);
+    frame.camera = look({0, 1, 2}, {0, 1, 0});
+    frame.camera.orthographic_height_m = 2.0f;
+    Material m = plain_material(glm::vec3(0.3f));
+    m.normal_texture = {.texture = 0};
+    const auto of = [&](int green, int blue) {
+        return mean(shot(scene_of({quad({-1, 0, 0}, {2, 0, 0}, {0, 2, 0})}, {m}), frame, {even({128, green, blue, 255})}), "snow");
+    };
+    EXPECT_EQ(of(128, 255), 0.0f);
+    EXPECT_EQ(of(12, 186), 0.0f) << "what looks down";
+    EXPECT_GT(of(244, 186), 0.2f) << "what looks up";
+}
+
 // Local maps move with the texture coordinates and not with the world; those of the world the other
 // way round.
 TEST_F(SnowRules, MapsLieInTheWorldOrOnTheSurface)

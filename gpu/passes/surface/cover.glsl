@@ -70,7 +70,8 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         here.snow = cover_of_share(here.snow, 1.0 - trodden.pressed);
     }
 
-    const float amount_raw = snow_amount_raw(at, here.snow);
+    const float ledge = SNOW != 0u && (SNOW & SNOW_GRASS) == 0u ? ledge_of(at, to_world(f, mapped).y) : 0.0;
+    const float amount_raw = snow_amount_raw(at, here.snow, ledge);
     // Deep snow knows no relief below it.
     const bool bodied = (SNOW & SNOW_BODY) != 0u && at.weather.a <= 0.0;
     const float over_m = SNOW != 0u && !bodied ? stands_over_m(at) : 0.0;
@@ -83,7 +84,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     snow.melt = 0.0;
     // A patch knows how steep it is; of the pixel its relief alone counts.
     const float up = here.placed ? min(smoothed.y + 1.0 - saturate(at.normal.y), 1.0) : smoothed.y;
-    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up, over_m);
+    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up, over_m, ledge);
     if ((SNOW & SNOW_BODY) != 0u) snow.snow = max(snow.snow, body);
 
     StandingWater water;

@@ -53,7 +53,8 @@ void fall_on(inout Exposure open, SurfaceInput at, vec3 strayed, int k)
     const float seen = inside ? open_above(clamp(map.xyz, vec3(0.0), vec3(1.0)), fall.layer) : 1.0;
     const float facing = facing_share(at.normal, fall.from.xyz);
     open.rain += fall.rain * seen * facing;
-    open.snow += fall.snow * seen * snow_facing_share(facing);
+    // The relief of land has places that face it.
+    open.snow += fall.snow * seen * ((BESIDES & BESIDES_WIDE_GROUND) != 0u ? 1.0 : snow_facing_share(facing));
     open.sky += fall.snow * seen * facing;
 }
 

@@ -10,12 +10,32 @@
 const float SNOW_MEAN_RELIEF = 0.7;   // of stones and their joints, in height maps
 const float SNOW_SETTLES_M = 0.008;  // what lies so much lower is a joint
 
-// Before it is saturated: the amount that falls here, and what the material always has.
-float snow_amount_raw(SurfaceInput at, float lies)
+// Y of the normal of the triangle itself: smoothed normals at the upper edge of a wall look half up.
+float face_up(SurfaceInput at)
 {
-    // What falls does not cling to walls, whatever the slope damp of the material.
-    const float clinging =
-        (SNOW & SNOW_GRASS) != 0u ? 1.0 : smooth_edge(0.0, 0.4, at.normal.y);
+    const vec3 across = cross(at.position_dx, at.position_dy);
+    const float size = dot(across, across);
+    return size > 0.0 ? abs(across.y) * inversesqrt(size) : 1.0;
+}
+
+// How far a point is a ledge of the relief of something steep, 0..1. facet_up: y of the normal of the normal map.
+float ledge_of(SurfaceInput at, float facet_up)
+{
+    return smooth_edge(0.45, 0.75, facet_up) * smooth_edge(0.1, 0.3, facet_up - at.normal.y);
+}
+
+// Before it is saturated: the amount that falls here, and what the material always has.
+float snow_amount_raw(SurfaceInput at, float lies, float ledge)
+{
+    // What falls does not cling to walls, whatever the slope damp of the material; on their ledges it lies.
+    float clinging = 1.0;
+    if ((SNOW & SNOW_GRASS) == 0u) {
+        // Of land its relief says so (snow_caught).
+        if ((BESIDES & BESIDES_WIDE_GROUND) == 0u) clinging = smooth_edge(0.0, 0.4, at.normal.y);
+        const bool body = (SNOW & SNOW_BODY) != 0u && at.weather.a < 0.999;
+        if (!body && at.normal.y < 0.9) clinging *= smooth_edge(0.02, 0.12, face_up(at));
+        clinging = max(clinging, ledge);
+    }
     return lies * clinging * material.snow_accumulation.y +
            material.snow_accumulation.x;
 }
@@ -35,16 +55,28 @@ vec4 snow_map_at(SurfaceInput at, int number)
     return texel_from_above(snow_map, at, frame.look.snow_tiling[number], vec2(0.0));
 }
 
+// Where the masks lie, in metres: from above they would be streaks on what is steep.
+Uv mask_place(SurfaceInput at)
+{
+    if (at.normal.y < 0.6) return metres_along(at);
+    return Uv(at.position.xz, at.position_dx.xz, at.position_dy.xz);
+}
+
+float snow_mask_at(SurfaceInput at, int number)
+{
+    if ((SNOW & SNOW_LOCAL) != 0u) return snow_map_at(at, number).b;
+    return texel(snow_map, scaled(mask_place(at), frame.look.snow_tiling[number])).b;
+}
+
 // Where snow lies first. Of wide ground by two readings of the map, whatever map that is: its coarsest level is its mean.
 float snow_mask(SurfaceInput at)
 {
-    const float first = snow_map_at(at, kSnowMask).b;
+    const float first = snow_mask_at(at, kSnowMask);
     if ((BESIDES & BESIDES_WIDE_GROUND) == 0u || (SNOW & SNOW_LOCAL) != 0u) return first;
     const float tiling = frame.look.snow_tiling[kSnowMask];
-    const vec2 p = place_across(at.position.xz * tiling);
-    const vec2 dx = place_across(at.position_dx.xz * tiling);
-    const vec2 dy = place_across(at.position_dy.xz * tiling);
-    return mask_of_two(first, textureGrad(snow_map, p, dx, dy).b, textureLod(snow_map, p, 16.0).b);
+    const Uv along = scaled(mask_place(at), tiling);
+    const Uv other = Uv(place_across(along.at), place_across(along.dx), place_across(along.dy));
+    return mask_of_two(first, texel(snow_map, other).b, textureLod(snow_map, along.at, 16.0).b);
 }
 
 // The material's own mask: 1 snow may lie .. 0 never.
@@ -74,8 +106,9 @@ float stands_over_m(SurfaceInput at)
     return (relief_height(at) - SNOW_MEAN_RELIEF) * unit_m;
 }
 
-// smoothed_up: y of the pixel normal, smoothed by the snow's amount. over_m: as stands_over_m().
-SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m)
+// smoothed_up: y of the pixel normal, smoothed by the snow's amount. over_m: as stands_over_m(). ledge: as
+// ledge_of().
+SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m, float ledge)
 {
     // What falls first comes to rest between the stones.
     const float between = clamp(-over_m / SNOW_SETTLES_M, -1.0, 1.0);
@@ -89,26 +122,28 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m
         blade.melt = blade.snow;
         return blade;
     }
-    const float detail = snow_map_at(at, kSnowMaskDetail).b;
+    const float detail = snow_mask_at(at, kSnowMaskDetail);
     const float blurred = snow_masks_blurred(at);
     if ((SNOW & SNOW_VERTEX) != 0u) {
         return snow_cover_of_vertices(amount, at.normal.y, material.snow_slope_damp, mask, detail, melt,
                                       blurred);
     }
     float holds = snow_rests(at.normal.y) + max(between, 0.0);
-    if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
-        const vec2 dx = at.position_dx.xz;
-        const vec2 dy = at.position_dy.xz;
-        // Level ground holds all of it; it counts from where snow would slide.
-        holds += (1.0 - smooth_edge(0.7, 0.85, at.normal.y)) * snow_holds(at.position.xz, sqrt(max(dot(dx, dx), dot(dy, dy))));
-    }
+    // What lies on a ledge does not ask how steep the wall is.
+    holds += ledge * max(1.0 - smoothed_up - holds, 0.0);
     const float unique = unique_mask(at);
+    const bool slope_of_land = (BESIDES & BESIDES_WIDE_GROUND) != 0u && at.normal.y < 0.85;
+    SlopeRelief relief;
+    if (slope_of_land) {
+        const vec3 dx = at.position_dx, dy = at.position_dy;
+        relief = slope_relief(at.position, sqrt(max(dot(dx, dx), dot(dy, dy))));
+        // Level ground holds all of it; it counts from where snow would slide.
+        holds += (1.0 - smooth_edge(0.7, 0.85, at.normal.y)) * snow_holds(relief);
+    }
     SnowCover cover = snow_cover(amount, height, smoothed_up + holds, material.snow_slope_damp, unique, mask, detail,
                                  melt, blurred);
-    if ((BESIDES & BESIDES_WIDE_GROUND) != 0u && at.normal.y < 0.85) {
-        const vec2 dx = at.position_dx.xz;
-        const vec2 dy = at.position_dy.xz;
-        const float caught = snow_caught(at.position, at.normal.y, sqrt(max(dot(dx, dx), dot(dy, dy))));
+    if (slope_of_land) {
+        const float caught = snow_caught(at.normal.y, relief);
         const SnowCover level = snow_cover(amount, height, 1.0, 0.0, unique, mask, detail, melt, blurred);
         cover.snow = max(cover.snow, caught * level.snow);
         cover.melt = max(cover.melt, caught * level.melt);
