@@ -50,10 +50,12 @@ private:
 
     std::shared_ptr<const scene::SnowCaps> caps_;
     Overlay overlay_;
+    std::vector<std::uint32_t> caster_points_;  // of the overlay's last vertices
     std::optional<Key> laid_;
     bool lies_ = false;
     float lift_m_ = 0.0f;
-    std::vector<Covered> covered_;  // of each part of the caps
+    std::vector<Covered> covered_;
+    std::vector<std::uint32_t> covering_;  // which part of the caps says so of each
     void find_covered(const scene::SnowShape& shape);
     std::shared_ptr<const PlaceShape> shape_;          // that patches_ belong to
     std::vector<Around> patches_;
