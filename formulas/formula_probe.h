@@ -36,6 +36,7 @@
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/beads.h"
+#include "formulas/weather/depth_quads.h"
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
@@ -51,7 +52,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 61;
+SHARED_CONST int kProbeKinds = 62;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -548,6 +549,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const int quad = cube_quad(cube_quads_begin(1 + int(5.0f * c.y)), 1 << (1 + int(5.0f * c.y)), place.face, ivec2(1, 2));
         return vec4(float(place.face) + 0.25f * place.st.x, place.st.y + float(quad),
                     float(beside.face) + 0.25f * beside.st.x + 0.0625f * beside.st.y, light.x + 2.0f * light.y + 3.0f * light.z);
+    }
+    if (kind == 61) {
+        const uvec2 quad = depth_quad(a);
+        const vec2 circle = on_circle(c.x);
+        return vec4(float(int(quad.x & 65535u)) + circle.x, float(int(quad.y >> 16u)) + circle.y,
+                    share_passed(quad, b.x, vec2(b.y, b.z)), share_passed(quad, a.z, vec2(b.y, b.z)));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

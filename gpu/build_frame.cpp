@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gpu/build_frame.h"
+#include "formulas/weather/falls_here.h"
 #include "gpu/frame/falls.h"
 #include "gpu/lighting/models_io.h"
 #include "gpu/outputs/light_parts_io.h"
@@ -188,9 +189,29 @@ std::vector<Fall> falls_of(const Frame& frame, const VisibleWeather& weather)
 // is a second of compiling for every material.
 std::size_t rounded_falls(std::size_t count)
 {
-    return count == 0 ? 0 : (count + 1) / 3 * 3 + 1;
+    return count == 0 || count == 3 ? count : (count + 1) / 3 * 3 + 1;  // steady rain mostly has three
 }
 static_assert((SKY_DIRECTIONS + 1) / 3 * 3 + 1 == SKY_DIRECTIONS);
+
+shared::FallConstants fall_constants(const DepthView& view, const glm::vec3& from, const Fall& fall)
+{
+    // A shelter does not shelter itself: a point is lifted by a texel and a bit along its normal, by most of one
+    // towards the sky.
+    glm::mat4 map = view.map_from_world;
+    map[3] += map * glm::vec4(from * (view.texel_m * 0.8f), 0.0f);
+    const auto row = [&map](int i) { return glm::vec4(map[0][i], map[1][i], map[2][i], map[3][i]); };
+    const glm::vec4 middle(0.0f, 0.0f, 0.0f, 0.5f);
+    shared::FallConstants c{};
+    c.column = row(0) * static_cast<float>(SKY_MAP_SIZE) - middle;
+    c.row = row(1) * static_cast<float>(SKY_MAP_SIZE) - middle;
+    c.depth = row(2);
+    c.lift_m = view.texel_m * 1.2f;
+    c.level = shared::facing_level(from);
+    c.rain = fall.rain;
+    c.snow = fall.snow;
+    c.layer = fall.direction;
+    return c;
+}
 
 void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeather& weather,
                 const FrameResources& r)
@@ -218,7 +239,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     int k = 0;
     for (const Fall& fall : falls) {
         const int i = fall.direction;
-        c.falls[k++] = {c.sky_from_world[i], c.sky_direction[i], fall.rain, fall.snow, i};
+        c.falls[k++] = fall_constants(maps.sky_views[static_cast<std::size_t>(i)], sky_direction(i), fall);
     }
     c.flow_size = r.surface_maps->flow->width;
     c.snow_size = r.surface_maps->snow->width;
@@ -428,7 +449,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     std::vector<int> directions;
     for (const Fall& fall : falls_of(frame, weather)) directions.push_back(fall.direction);
     weather.falls = static_cast<std::uint32_t>(rounded_falls(directions.size()));
-    if (settings.shelter && r.depth_maps->sky_valid) add_sky_rows(graph, *r.depth_maps, directions);
+    if (settings.shelter && r.depth_maps->sky_valid) add_depth_quads(graph, *r.depth_maps, directions);
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, *r.triangles, r.lights->shadowed);
 

@@ -9,10 +9,19 @@
 SHARED_BEGIN
 
 // Flux on a plane with normal n of what falls towards -from, over that on the ground: more on roofs and
-// walls that face it, none on those that look away. Near the horizon held in bounds.
+// walls that face it, none on those that look away. Near the horizon held in bounds. In two steps, since the first is
+// the same for all points.
+SHARED_FN vec3 facing_level(vec3 from)
+{
+    return from * (1.0f / max(from.y, 0.3f));
+}
+SHARED_FN float facing_on_level(vec3 n, vec3 level)
+{
+    return clamp(dot(n, level), 0.0f, 1.5f);
+}
 SHARED_FN float facing_share(vec3 n, vec3 from)
 {
-    return clamp(dot(n, from) / max(from.y, 0.3f), 0.0f, 1.5f);
+    return facing_on_level(n, facing_level(from));
 }
 
 // Of snow only what looks away gets none: how much holds on a slope is for the law of the cover to say,

@@ -20,11 +20,14 @@ SHARED_BEGIN
 
 // A direction that rain and snow come from.
 struct FallConstants {
-    mat4 map_from_world;  // of its depth map
-    vec4 from;            // towards the sky, unit; metres of a texel of the map
-    float rain;           // share of it
+    vec4 column;   // of its depth map, from the world: texels from the middle of the first one, lifted towards the sky ..
+    vec4 row;
+    vec4 depth;
+    float lift_m;  // .. and along the normal so far, off the surface itself
+    vec3 level;    // what facing_on_level wants
+    float rain;    // share of it
     float snow;
-    int layer;            // number of the map
+    int layer;     // number of the map
 };
 
 struct FrameConstants {

@@ -153,7 +153,7 @@ void add_decals(FrameGraph& graph, FrameTargets& targets, DecalTargets& own, con
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
-                      {SURFACE_SHELTER, texels(*depth_maps.sky_rows)},
+                      {SURFACE_SHELTER, texels(*depth_maps.depth_quads)},
                       {DECAL_DEPTH, sampled(*g.depth, targets.nearest)},
                       {DECAL_NORMALS, sampled(*g.normals, targets.nearest)},
                       {SURFACE_DRAWS, texels(scene.draw_rows())}};

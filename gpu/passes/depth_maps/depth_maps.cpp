@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gpu/passes/depth_maps/depth_maps_io.h"
+#include "gpu/passes/depth_maps/depth_quads_io.h"
 #include "gpu/passes/shapes/shapes.h"
 #include "gpu/upload/draw.h"
 #include "scene/snow/coarser_caps.h"
@@ -14,7 +15,8 @@ namespace petrichor::gpu {
 namespace {
 
 constexpr float kOver = 0.5f;  // texels that what stands for the snow may lie over it
-constexpr VkDeviceSize kSkyLayerBytes = VkDeviceSize{kSkyMapSize} * kSkyMapSize * sizeof(float);
+constexpr VkDeviceSize kSkyLayerBytes = VkDeviceSize{kSkyMapSize} * kSkyMapSize * sizeof(glm::uvec2);
+static_assert(kSkyMapSize % DEPTH_QUADS_TILE == 0);
 
 }  // namespace
 
@@ -249,12 +251,11 @@ DepthMaps::DepthMaps(const Device& device, MemoryArena& arena)
            .width = kSkyMapSize,
            .height = kSkyMapSize,
            .layers = SKY_DIRECTIONS,
-           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
-                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT})),
-      sky_rows(arena.buffer({.name = "sky_rows",
-                             .size = SKY_DIRECTIONS * kSkyLayerBytes,
-                             .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                             .texel_format = VK_FORMAT_R32_SFLOAT})),
+           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
+      depth_quads(arena.buffer({.name = "depth_quads",
+                                .size = SKY_DIRECTIONS * kSkyLayerBytes,
+                                .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                .texel_format = VK_FORMAT_R32G32_UINT})),
       compare(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                            VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true)),
       plain(make_sampler(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
@@ -289,36 +290,27 @@ void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenT
 void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene,
                         SeenTriangles& triangles)
 {
-    maps.sky_rows_valid.fill(false);
+    maps.depth_quads_valid.fill(false);
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
         add_depth_map(graph, "sky_visibility", scene, triangles, maps.sky_views[i], *maps.sky,
                       maps.sky_layers[i].get(), Falls::Sky);
     }
 }
 
-void add_sky_rows(FrameGraph& graph, DepthMaps& maps, const std::vector<int>& directions)
+void add_depth_quads(FrameGraph& graph, DepthMaps& maps, const std::vector<int>& directions)
 {
-    std::vector<VkBufferImageCopy> regions;
     for (const int i : directions) {
         const auto layer = static_cast<std::size_t>(i);
-        if (maps.sky_rows_valid[layer]) continue;
-        maps.sky_rows_valid[layer] = true;
-        VkBufferImageCopy region{};
-        region.bufferOffset = layer * kSkyLayerBytes;
-        region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, static_cast<std::uint32_t>(i), 1};
-        region.imageExtent = {kSkyMapSize, kSkyMapSize, 1};
-        regions.push_back(region);
+        if (maps.depth_quads_valid[layer]) continue;
+        maps.depth_quads_valid[layer] = true;
+        graph.add(ComputePass{.name = "sky_visibility",
+                              .shader = "depth_quads.comp",
+                              .constants = {},
+                              .bindings = {{DEPTH_QUADS_MAPS, sampled(*maps.sky, maps.plain)},
+                                           {DEPTH_QUADS_QUADS, storage_buffer(*maps.depth_quads)}},
+                              .push = PushBlock(shared::DepthQuadsParams{i}),
+                              .groups = groups_over(kSkyMapSize, kSkyMapSize, DEPTH_QUADS_TILE)});
     }
-    if (regions.empty()) return;
-    GpuImage& image = *maps.sky;
-    GpuBuffer& rows = *maps.sky_rows;
-    graph.add(TransferPass{"sky_visibility",
-                           {{.image = &image, .use = Use::TransferSource}, {.buffer = &rows, .use = Use::TransferTarget}},
-                           [&image, &rows, regions](VkCommandBuffer commands) {
-                               vkCmdCopyImageToBuffer(commands, image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                                      rows.buffer.get(), static_cast<std::uint32_t>(regions.size()),
-                                                      regions.data());
-                           }});
 }
 
 void add_shelter(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene,

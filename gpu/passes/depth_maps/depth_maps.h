@@ -16,7 +16,7 @@ struct DepthMaps {
     std::unique_ptr<GpuImage> shadow;   ///< one layer a cascade
     std::unique_ptr<GpuImage> shelter;  ///< seen along the falling rain
     std::unique_ptr<GpuImage> sky;      ///< seen from directions over the upper hemisphere
-    std::unique_ptr<GpuBuffer> sky_rows;  ///< texels of those that were asked for, row by row (add_sky_rows)
+    std::unique_ptr<GpuBuffer> depth_quads;  ///< four texels in one, of those that were asked for (add_depth_quads)
     SamplerHandle compare;              ///< lit when at least as near as the map
     SamplerHandle plain;                ///< the depths themselves
     std::vector<ImageViewHandle> shadow_layers;
@@ -28,7 +28,7 @@ struct DepthMaps {
     std::array<bool, SHADOW_CASCADES> shadow_valid{};
     bool shelter_valid = false;
     bool sky_valid = false;
-    std::array<bool, SKY_DIRECTIONS> sky_rows_valid{};
+    std::array<bool, SKY_DIRECTIONS> depth_quads_valid{};
 
     /// Draws all of them again with the next frame that asks.
     void forget()
@@ -82,11 +82,11 @@ void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenT
 void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene,
                         SeenTriangles& triangles);
 
-// Copies maps of the sky into rows of texels, which a CPU reads several times as fast, unless they lie there.
+// Packs maps of the sky (formulas/weather/depth_quads.h), which a CPU reads several times as fast, unless they lie there.
 //
 //   reads    sky
-//   writes   sky_rows
-void add_sky_rows(FrameGraph& graph, DepthMaps& maps, const std::vector<int>& directions);
+//   writes   depth_quads
+void add_depth_quads(FrameGraph& graph, DepthMaps& maps, const std::vector<int>& directions);
 
 // Depth of the scene along the falling rain.
 //

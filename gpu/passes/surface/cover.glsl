@@ -127,7 +127,8 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     }
 
     const float left_m = frame.look.detail_distance_m - length(at.position - frame.camera_m);
-    const float fade = pow(saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3)), 2.0);
+    const float near = saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3));
+    const float fade = near * near;
     vec3 ripple = vec3(0.0, 0.0, 1.0);
     Wave flow;
     flow.lean = vec3(0.0);

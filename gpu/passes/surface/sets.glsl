@@ -62,7 +62,8 @@ float detail_share(SurfaceInput at)
     float share = saturate(material.mix_factor);
     if (has(TEXTURE_MIX_MASK)) share *= number_at(mix_mask_texture, TEXTURE_MIX_MASK, at);
     const float left_m = frame.look.detail_distance_m - length(at.position - frame.camera_m);
-    return share * pow(saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3)), 2.0);
+    const float near = saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3));
+    return share * near * near;
 }
 
 // A normal over the second texture coordinates, in the tangent frame of the first.

@@ -43,7 +43,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
-                      {SURFACE_SHELTER, texels(*depth_maps.sky_rows)}};
+                      {SURFACE_SHELTER, texels(*depth_maps.depth_quads)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     if (layer) {
         bindings.push_back({SURFACE_LAYER_SOLID_DEPTH, sampled(*layer->solid_depth, targets.nearest)});

@@ -68,7 +68,10 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
 // Rings of drops. Normals of the water are laid out in world x and z.
 vec3 ripple_normal(SurfaceInput at, StandingWater water, float open)
 {
-    const vec2 xy = texel_from_above(ripple_map, at, frame.look.ripple_tiling, vec2(0.0)).xy;
+    const float tiling = frame.look.ripple_tiling;
+    // Of whole levels a CPU reads one.
+    const int level = quad_level(textureSize(ripple_map, 0).x, at.position_dx.xz * tiling, at.position_dy.xz * tiling);
+    const vec2 xy = textureLod(ripple_map, at.position.xz * tiling, float(level)).xy;
     return mix(vec3(0.0, 0.0, 1.0), unpack_normal(xy, frame.look.ripple_strength),
                water.deep * saturate(at.normal.y) * saturate(open * 2.0));
 }

@@ -179,7 +179,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
-                      {SURFACE_SHELTER, texels(*depth_maps.sky_rows)},
+                      {SURFACE_SHELTER, texels(*depth_maps.depth_quads)},
                       {RESOLVE_IDS, texels(id_rows)},
                       {RESOLVE_VERTICES, texels(scene.vertex_texels())},
                       {RESOLVE_INDICES, texels(scene.index_texels())},
