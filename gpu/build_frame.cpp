@@ -275,7 +275,7 @@ std::shared_ptr<const SeenDraws> seen_triangles(const Frame& frame, const Sun& s
 {
     const FrameSettings& s = frame.settings;
     const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
-    SampledView view{c.world_to_clip, s.width, s.height, {}, false, {}};
+    SampledView view{c.world_to_clip, s.width, s.height, {}, r.over_snow ? Covered::kFromEye : std::uint8_t{0}, {}};
     for (std::uint32_t i = range.first; i < range.end; ++i)
         view.offsets.push_back(sample_offset(i, s.seed));
     std::vector<bool> alone(r.scene->draws().size());

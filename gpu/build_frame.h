@@ -43,6 +43,7 @@ struct FrameResources {
     GpuPlace* place = nullptr;
     LightParts* parts = nullptr;
     float snow_lift_m = 0.0f;  ///< 0: snow has no body
+    bool over_snow = false;    ///< the eye stands in none
     bool materials = false;  ///< an output asks which material a pixel has
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample

@@ -23,6 +23,11 @@ constexpr float kTallest_m = scene::kDeepestSnow_m * 1.4f;
 
 constexpr float kCovers_m = 0.01f;  // caps so high over a triangle of the scene stand for it
 
+constexpr float kHides_m = 0.02f;      // .. and so high, upright within this, ..
+constexpr float kUpright_m = 0.001f;
+constexpr float kNear_m = 1.5f;        // .. hide it from eyes that have none around so far ..
+constexpr float kOverIt_m = 0.1f;      // .. and stand so high over it
+
 constexpr int kMiddle = kSide * kSide / 2;
 
 // The leaf that lies at a point and faces up; as place_leaf() of gpu/frame/place.glsl. Its number and
@@ -85,6 +90,16 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
         covered_.push_back({from.instance, from.primitive, std::vector<std::uint8_t>(last)});
         covering_.push_back(static_cast<std::uint32_t>(&from - caps_->parts.data()));
     }
+    corners_.reserve(caps_->indices.size());
+    for (const std::uint32_t corner : caps_->indices) corners_.push_back(caps_->corner_points[corner]);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> ways;
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+        const std::uint32_t a = corners_[k], b = corners_[k % 3 == 2 ? k - 2 : k + 1];
+        ways[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+    inner_.assign(caps_->points.size(), 1);
+    for (const auto& [edge, way] : ways)
+        if (way != 0) inner_[edge.first] = inner_[edge.second] = 0;
     // Vertices of their own, that lie side by side: all between the first and the last are looked at.
     for (std::size_t i = 0; i < caps_->parts.size(); ++i) {
         const scene::SnowCaps::Part& from = caps_->parts[i];
@@ -193,27 +208,58 @@ bool SnowBody::lay(const Frame& frame)
         v.tangent = glm::vec4(unit * (1.0f + lift), v.tangent.w);
         v.weather[3] = std::min<std::uint8_t>(code(shared::snow_body_code(shape.deep_m[point])), 254);
     }
+    top_m_ = shape.positions;
     find_covered(shape);
     return true;
 }
 
+// Points that lie deep below snow that stands upright over them, and whose neighbours do: an eye beside others may look under
+// the snow.
+std::vector<std::uint8_t> SnowBody::hidden_points(const scene::SnowShape& shape) const
+{
+    std::vector<std::uint8_t> deep = inner_;
+    for (std::size_t i = 0; i < deep.size(); ++i) {
+        const vec3 lift = shape.positions[i] - caps_->points[i].base_m;
+        const bool upright = std::max(std::abs(lift.x), std::abs(lift.z)) < kUpright_m;
+        if (!(lift.y > kHides_m) || !upright) deep[i] = 0;
+    }
+    std::vector<std::uint8_t> hidden = deep;
+    for (std::size_t k = 0; k + 2 < corners_.size(); k += 3) {
+        const std::uint32_t a = corners_[k], b = corners_[k + 1], c = corners_[k + 2];
+        if ((deep[a] & deep[b] & deep[c]) == 0) hidden[a] = hidden[b] = hidden[c] = 0;
+    }
+    return hidden;
+}
+
 void SnowBody::find_covered(const scene::SnowShape& shape)
 {
+    std::vector<std::uint8_t> from = hidden_points(shape);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        from[i] = from[i] != 0 ? Covered::kFromEye : std::uint8_t{0};
+        if (shape.positions[i].y - caps_->points[i].base_m.y > kCovers_m) from[i] |= Covered::kFromSun;
+    }
     for (std::size_t i = 0; i < covering_.size(); ++i) {
         const scene::SnowCaps::Part& part = caps_->parts[covering_[i]];
         std::vector<std::uint8_t>& triangles = covered_[i].triangles;
         std::fill(triangles.begin(), triangles.end(), std::uint8_t{0});
         for (const std::uint32_t below : part.below)
-            if (below != scene::SnowCaps::kUncovered) triangles[below] = 1;
-        for (std::size_t t = 0; t < part.below.size(); ++t) {
+            if (below != scene::SnowCaps::kUncovered) triangles[below] = Covered::kFromSun | Covered::kFromEye;
+        const std::uint32_t* corner = corners_.data() + part.first_index;
+        for (std::size_t t = 0; t < part.below.size(); ++t, corner += 3) {
             const std::uint32_t below = part.below[t];
-            if (below == scene::SnowCaps::kUncovered) continue;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::uint32_t point = caps_->corner_points[caps_->indices[part.first_index + 3 * t + c]];
-                if (!(shape.positions[point].y - caps_->points[point].base_m.y > kCovers_m)) triangles[below] = 0;
-            }
+            if (below != scene::SnowCaps::kUncovered) triangles[below] = static_cast<std::uint8_t>(triangles[below] & from[corner[0]] & from[corner[1]] & from[corner[2]]);
         }
     }
+}
+
+bool SnowBody::is_below(const vec3& eye_m) const
+{
+    if (!lies_) return false;
+    for (std::size_t i = 0; i < top_m_.size(); ++i) {
+        const vec3 way = eye_m - top_m_[i];
+        if (way.x * way.x + way.z * way.z < kNear_m * kNear_m && way.y < kOverIt_m && eye_m.y > caps_->points[i].base_m.y - kTallest_m) return false;
+    }
+    return true;
 }
 
 std::span<const Covered> SnowBody::covered() const

@@ -34,6 +34,8 @@ public:
     std::span<const Vertex> vertices() const;
     /// What of the scene lies below it: the same triangles of the caps are seen from above, and throw its shadows.
     std::span<const Covered> covered() const;
+    /// An eye there stands in no snow, nor just below it.
+    bool is_below(const glm::vec3& eye_m) const;
     /// The farthest that a vertex stands over its ground; 0 without any.
     float lift_m() const { return lies_ ? lift_m_ : 0.0f; }
 
@@ -57,6 +59,10 @@ private:
     std::vector<Covered> covered_;
     std::vector<std::uint32_t> covering_;  // which part of the caps says so of each
     void find_covered(const scene::SnowShape& shape);
+    std::vector<std::uint8_t> hidden_points(const scene::SnowShape& shape) const;
+    std::vector<std::uint32_t> corners_;  // points of the caps' triangles
+    std::vector<std::uint8_t> inner_;     // of each point: 0 on a border
+    std::vector<glm::vec3> top_m_;        // of each point, as it lies
     std::shared_ptr<const PlaceShape> shape_;          // that patches_ belong to
     std::vector<Around> patches_;
 };

@@ -78,8 +78,9 @@ struct Overlay {
     std::vector<Part> parts;
 };
 
-/// Triangles of a primitive that the overlay hides from above: 1 for each that it does.
+/// Triangles of a primitive that the overlay hides: kFromSun in maps, for it throws the same shadows; kFromEye to all eyes over it.
 struct Covered {
+    static constexpr std::uint8_t kFromSun = 1, kFromEye = 2;
     std::uint32_t instance_id = 0;
     std::uint32_t primitive = 0;
     std::vector<std::uint8_t> triangles;
@@ -137,7 +138,7 @@ public:
     /// be drawing.
     void lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered = {});
     bool overlaid() const { return overlaid_; }
-    /// By the triangles of a draw, 1 for those below the overlay; empty: none are.
+    /// By the triangles of a draw, from where the overlay hides them (Covered); empty: from nowhere.
     std::span<const std::uint8_t> covered(const Draw& draw) const
     {
         return covered_[static_cast<std::size_t>(&draw - draws_.data())];

@@ -123,9 +123,13 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
         const auto first = static_cast<std::uint32_t>(used_);
         const std::uint32_t triangles = draw->index_count / 3;
         const std::span<const std::uint8_t> covered =
-            view.from_above ? scene.covered(*draw) : std::span<const std::uint8_t>();
+            view.hidden != 0 ? scene.covered(*draw) : std::span<const std::uint8_t>();
+        // An eye sees faces that look up; the others it may see from below.
+        const bool by_side = (view.hidden & Covered::kFromEye) != 0;
+        const float seen_sign = draw->mirrored ? 1.0f : -1.0f;
         for (std::uint32_t t = 0; t < triangles; ++t) {
-            if (t < covered.size() && covered[t] != 0) continue;
+            const bool hidden = t < covered.size() && (covered[t] & view.hidden) != 0;
+            if (hidden && !by_side) continue;
             const std::uint32_t* index = indices + draw->first_index + 3 * std::size_t{t};
             const Corner& a = corners_[index[0] - draw->first_vertex];
             const Corner& b = corners_[index[1] - draw->first_vertex];
@@ -144,11 +148,12 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
                     high_y < low_offset.y || low_y > height + high_offset.y) {
                     continue;
                 }
-                if (turned_away) {
+                if (turned_away || hidden) {
                     const float area =
                         (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
                     const float unsure = 2.0f * slack * (high_x - low_x + high_y - low_y);
-                    if (area * hidden_sign > unsure) continue;
+                    if (turned_away && area * hidden_sign > unsure) continue;
+                    if (hidden && area * seen_sign > unsure) continue;
                 }
                 if (high_x - low_x < 1.0f || high_y - low_y < 1.0f) {
                     bool met = false;

@@ -18,7 +18,7 @@ struct SampledView {
     int width = 0;
     int height = 0;
     std::vector<glm::vec2> offsets{glm::vec2(0.0f)};  ///< of the samples, pixels from the middle of one
-    bool from_above = false;  ///< what lies below the overlay is hidden by it
+    std::uint8_t hidden = 0;  ///< from where the overlay hides what lies below it: Covered::kFrom..
     AskedPart asked;  ///< of a view without perspective: what of it counts
 };
 

@@ -277,7 +277,7 @@ std::vector<std::vector<std::uint32_t>> Coarser::points() const
 
 float casters_over_m(float away_m)
 {
-    return std::clamp(0.0004f * away_m, 0.002f, 0.012f);
+    return std::clamp(0.00038f * away_m, 0.002f, 0.012f);
 }
 
 void add_casters(SnowCaps& caps, const std::vector<vec3>& eyes_m)

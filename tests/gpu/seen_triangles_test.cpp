@@ -101,7 +101,7 @@ protected:
         frame.camera = camera;
         frame.settings.width = frame.settings.height = kSide;
         const shared::FrameConstants c = frame_constants(frame, Sun{}, on_device.bounds(), 0);
-        SampledView view{c.world_to_clip, kSide, kSide, {}, false, {}};
+        SampledView view{c.world_to_clip, kSide, kSide, {}, 0, {}};
         for (std::uint32_t i = 0; i < 4; ++i) view.offsets.push_back(sample_offset(i, 3));
         SeenTriangles triangles(device);
         triangles.reset(on_device);

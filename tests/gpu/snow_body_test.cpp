@@ -102,7 +102,7 @@ TEST_F(SnowBodyTest, AFrameAloneIsTheFrameOfARun)
     EXPECT_EQ(renderer->render(frame(0.12f)).beauty, run.beauty);
 }
 
-// The maps of the sun leave out what deep snow covers: its caps stand for it.
+// The maps of the sun leave out what deep snow covers, its caps stand for it; and eyes over it what lies deep below.
 TEST_F(SnowBodyTest, WhatItCoversIsMissedNowhere)
 {
     // Rough ground in small triangles, cut off at x = 2 m above lower ground.
@@ -141,6 +141,18 @@ TEST_F(SnowBodyTest, WhatItCoversIsMissedNowhere)
         f.settings.exposure = 1e-5f;
         frames.push_back(f);
     }
+    for (const float height : {0.24f, 0.35f, 3.0f, 0.1f, -0.3f}) {  // along the snow, from above, within it, from below
+        frames.push_back(frames.front());
+        frames.back().camera = look({0.5f, height, 3}, {0, 0, 0});
+    }
+    SnowBody body(own);
+    ASSERT_TRUE(body.lay(frames.front()));
+    std::size_t hidden = 0;
+    for (const Covered& one : body.covered())
+        for (const std::uint8_t from : one.triangles) hidden += (from & Covered::kFromEye) != 0 ? 1 : 0;
+    EXPECT_GT(hidden, 2000u);
+    EXPECT_TRUE(body.is_below({0.5f, 0.45f, 0}));
+    EXPECT_FALSE(body.is_below({0.5f, 0.1f, 0}));
     renderer->load(rough, {}, own);
     std::vector<std::vector<std::uint16_t>> without;
     for (const Frame& f : frames) without.push_back(renderer->render(f).beauty);

@@ -74,7 +74,7 @@ Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::m
                asked_of(asked, clip_from_world, draw.centre_m, draw.radius_m);
     };
     Casters casters;
-    casters.seen = triangles.list(scene, {clip_from_world, size, size, {glm::vec2(0.0f)}, falls == Falls::Light, asked}, true, wanted);
+    casters.seen = triangles.list(scene, {clip_from_world, size, size, {glm::vec2(0.0f)}, falls == Falls::Light ? Covered::kFromSun : std::uint8_t{0}, asked}, true, wanted);
     casters.size = size;
     for (const Draw* shape : shapes_in(scene, clip_from_world, asked)) {
         if (casts(scene.materials()[shape->material], falls)) casters.shapes.push_back(shape);
