@@ -22,6 +22,8 @@ constexpr float kBroad_m = SnowCaps::kFillDepths_m[3];  // whose surface tells h
 constexpr float kBuries_m = 0.08f;  // what lies so far over something all around leaves it no snow
 constexpr float kRelief_m = 0.02f;
 constexpr float kMostFill = 0.9f;   // of the depth, up or down
+constexpr float kThin_m = 0.02f;    // half the width of what keeps its own cap in any snow ..
+constexpr float kNotThin_m = 0.045f;  // .. and of a kerb, which does not
 constexpr float kNear_m = 14.0f;
 constexpr float kCell_m = 0.025f;
 constexpr float kClose_m = 2.2f;      // what is looked at from here is a thing on a table ..
@@ -192,7 +194,8 @@ Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>&
             // Of posts and small things most of the circle is not: they keep their shape.
             const float most = std::max(kRelief_m, kMostFill * depth);
             const float whole = shared::smooth_edge(0.35f, 0.6f, there.whole);
-            if (depth == kShelter_m) point.wide = whole;
+            // Nor is a tube or a strap a step of what it lies on.
+            if (depth == kShelter_m) point.wide = whole * shared::smooth_edge(kThin_m, kNotThin_m, point.support_m);
             float fill = counts * whole * std::clamp(there.height_m - point.base_m.y, -most, most);
             fill -= dip * (k == 0 ? 0.5f : 1.0f) * (kDips_m + std::max(fill, 0.0f));
             point.fill_m[k] = fill;
