@@ -26,9 +26,12 @@ using glm::vec3;
 constexpr float kSteepest = 0.4f;     // y of the normals of what holds snow
 constexpr float kCoarse_m = 0.4f;     // how far apart the sky is looked at
 constexpr float kHidden = 0.1f;       // share of the sky that is none
-constexpr int kRounds = 3;            // of finer cuts where a shelter ends ..
+constexpr int kRounds = 6;            // of finer cuts where a shelter ends ..
 constexpr float kOtherSky = 0.2f;     // .. ends of an edge see so much more of the sky one than the other ..
-constexpr float kFineSky_m = 0.06f;   // .. and are so far apart
+constexpr float kFineSky_m = 0.06f;   // .. and are so far apart, as seen from 3 m on; nearer less ..
+constexpr float kFinestSky_m = 0.01f; // .. down to this
+constexpr float kEven_m = 0.04f;      // what is seen of it is evened out over edges up to this
+constexpr int kEvenPasses = 8;
 constexpr float kCoarser = 1.41421356f;
 constexpr int kTries = 12;
 constexpr float kAlong = 5.0f;        // times finer across an edge than along it
@@ -266,18 +269,46 @@ std::vector<float> longest_edges_m(const CutMesh& mesh, std::size_t count)
     return longest;
 }
 
+// Share of the sky at each point. Rays are few, and a step of a hand's width from point to point is no step of the snow.
+std::vector<float> even_sky(const CutMesh& mesh, std::size_t count)
+{
+    std::vector<float> sky(count, 0.0f);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i)
+        for (std::size_t v = 0; v < mesh.points[i].size(); ++v) sky[mesh.points[i][v]] = mesh.primitives[i].weather[v].w;
+    for (int pass = 0; pass < kEvenPasses; ++pass) {
+        std::vector<float> sum(sky), weight(count, 1.0f);
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            const Primitive& p = mesh.primitives[i];
+            for (std::size_t k = 0; k < p.indices.size(); ++k) {
+                const std::uint32_t a = p.indices[k], b = p.indices[k % 3 == 2 ? k - 2 : k + 1];
+                const float length = glm::distance(p.positions[a], p.positions[b]);
+                if (length >= kEven_m) continue;
+                const float w = 1.0f - length / kEven_m;
+                const std::uint32_t pa = mesh.points[i][a], pb = mesh.points[i][b];
+                sum[pa] += w * sky[pb];
+                sum[pb] += w * sky[pa];
+                weight[pa] += w;
+                weight[pb] += w;
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i) sky[i] = sum[i] / weight[i];
+    }
+    return sky;
+}
+
 // What of the depth lies at each point.
 // broad: at first what shelter leaves, on any slope.
 void fill_shares(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals, const SnowCapOptions& options)
 {
     caps.points.resize(normals.size());
+    const std::vector<float> even = even_sky(mesh, normals.size());
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& p = mesh.primitives[i];
         for (std::size_t v = 0; v < p.positions.size(); ++v) {
             const std::uint32_t number = mesh.points[i][v];
             SnowCaps::Point& point = caps.points[number];
             point.base_m = p.positions[v];
-            const float sky = p.weather[v].w;
+            const float sky = even[number];
             const float ragged = 0.3f * (smooth_noise(point.base_m, 0.17f, 91u) - 0.5f);
             const float open = shared::smooth_edge(kHidden, 0.8f, sky + ragged * std::min(1.0f, 4.0f * (1.0f - sky)));
             const float slope = detail::snow_on_slope(normals[number].y);
@@ -423,7 +454,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
             const auto at_a = seen.find(a), at_b = seen.find(b);
             if (at_a == seen.end() || at_b == seen.end() || std::abs(at_a->second - at_b->second) < kOtherSky) return false;
             const float away = nearest_eye_m(options, 0.5f * (a + b));
-            return glm::distance(a, b) > std::max(kFineSky_m, away * 0.02f);
+            return glm::distance(a, b) > std::max(kFinestSky_m, away < 3.0f ? away * 0.01f : std::max(kFineSky_m, away * 0.02f));
         };
         CutMesh finer = subdivide(mesh.primitives, at_shelters);
         if (finer.limited) break;

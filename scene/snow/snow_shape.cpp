@@ -33,6 +33,8 @@ float rounded(float s)
 }
 
 constexpr float kAtRim_m = 1.0e-3f;
+constexpr float kNearEdge_m = 0.25f;
+constexpr float kSmoothedDown = 0.75f;  // of the thickness
 constexpr float kBankSlope = 1.428f;  // of what leans against a step: moist snow, 55 degrees
 constexpr float kIntoSnow_m = 0.055f; // it ends so deep in the snow at its foot
 constexpr float kMostOut_m = 0.06f;
@@ -175,7 +177,10 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const float thickness = held * (round_low + lost * (1.0f - round_low)) * (round + kept * (1.0f - round)) * (round_slot + slot * (1.0f - round_slot));
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
-        at.y += thickness - sunk + (top[i] - bare[i]);
+        // Near an edge snow that is smoothed down still lies on what is below it.
+        const float smoothed = top[i] - bare[i];
+        const float filled = p.edge_m < kNearEdge_m ? glm::mix(std::max(smoothed, -kSmoothedDown * thickness), smoothed, closed) : smoothed;
+        at.y += thickness - sunk + filled;
         const float bridged = p.slot_m < 1.0e-3f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;

@@ -601,6 +601,80 @@ TEST(SnowShape, GoesOnIntoWhatStandsInIt)
     }
 }
 
+// A tube on a table is no step of it: in snow as deep as the tube is high it has a cap of its own, no slab with faces.
+TEST(SnowShape, AThinThingKeepsItsOwnCap)
+{
+    Scene scene = empty_scene();
+    add_ground(scene);
+    add_box(scene, {-0.15f, 0, -0.15f}, {0.15f, 0.08f, 0.15f}, false);
+    add_box(scene, {-0.12f, 0.08f, -0.024f}, {0.12f, 0.14f, 0.024f}, false);
+    SnowCapOptions options;
+    options.eyes_m = {{0, 0.6f, 1.0f}};
+    const SnowCaps caps = caps_of(scene, options);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.06f));
+    float highest = 0.0f, on_table = 0.0f, shoulder = 0.0f;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const vec3& base = caps.points[i].base_m;
+        if (std::abs(base.y - 0.14f) < 1e-4f) {
+            highest = std::max(highest, shape.positions[i].y - base.y);
+            if (caps.points[i].edge_m > 0.004f && caps.points[i].edge_m < 0.01f) shoulder = std::max(shoulder, shape.thickness_m[i]);
+        }
+        if (std::abs(base.y - 0.08f) < 1e-4f) on_table = std::max(on_table, shape.positions[i].y - base.y);
+    }
+    EXPECT_GT(shoulder, 0.004f);
+    EXPECT_LT(shoulder, 0.024f) << "no slab";
+    EXPECT_GT(highest, 0.004f);
+    EXPECT_GT(on_table, 0.05f) << "the table, which is wide, has all of it";
+    EXPECT_LT(highest, on_table - 0.06f + 0.024f) << "over the snow around it a heap as high as its half width at most";
+}
+
+// Around a box of a hand's width the snow of the ground ends in no teeth: its height goes on evenly along the foot. The ground
+// is left out below it, as that of models is, in cells that know nothing of its sides.
+TEST(SnowShape, EndsEvenlyAtTheFootOfASmallThing)
+{
+    Scene scene = empty_scene();
+    constexpr float kCell = 0.04f;
+    for (int z = -20; z < 20; ++z) {
+        for (int x = -20; x < 20; ++x) {
+            const vec2 middle = kCell * (vec2(static_cast<float>(x), static_cast<float>(z)) + 0.5f);
+            if (glm::length(middle) > 0.06f)
+                add_face(scene, {middle.x - 0.5f * kCell, 0, middle.y + 0.5f * kCell}, {kCell, 0, 0}, {0, 0, -kCell});
+        }
+    }
+    // Turned against the triangles of the ground.
+    const float c = 0.12f * std::cos(0.5f), s = 0.12f * std::sin(0.5f);
+    const std::vector<vec3> corners{{c, 0, s}, {-s, 0, c}, {-c, 0, -s}, {s, 0, -c}};
+    for (std::size_t k = 0; k < 4; ++k)
+        add_face(scene, corners[(k + 1) % 4], corners[k] - corners[(k + 1) % 4], {0, 0.1f, 0});
+    add_face(scene, corners[0] + vec3(0, 0.1f, 0), corners[3] - corners[0], corners[1] - corners[0]);
+    SnowCapOptions options;
+    options.eyes_m = {{-0.6f, 0.5f, 1.0f}};
+    const SnowCaps caps = caps_of(scene, options);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.06f));
+    // Of the ground within 1 cm of a side and off its corners, by where along it.
+    float steepest = 0.0f;
+    int pairs = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const vec3 from = corners[k], along = glm::normalize(corners[(k + 1) % 4] - corners[k]);
+        const vec3 out = glm::normalize(0.5f * (corners[k] + corners[(k + 1) % 4]));
+        std::vector<std::pair<float, float>> foot;
+        for (std::size_t i = 0; i < caps.points.size(); ++i) {
+            const vec3& base = caps.points[i].base_m;
+            const float off = glm::dot(base - from, out), at = glm::dot(base - from, along);
+            if (std::abs(base.y) < 1e-4f && off > 0.0f && off < 0.01f && at > 0.03f && at < 0.14f) foot.emplace_back(at, shape.positions[i].y);
+        }
+        std::sort(foot.begin(), foot.end());
+        for (std::size_t i = 1; i < foot.size(); ++i) {
+            steepest = std::max(steepest, std::abs(foot[i].second - foot[i - 1].second));
+            ++pairs;
+        }
+    }
+    RecordProperty("pairs", pairs);
+    RecordProperty("steepest_m", std::to_string(steepest));
+    EXPECT_GT(pairs, 12);
+    EXPECT_LT(steepest, 0.012f);
+}
+
 // A board that lies over a wall, 6 cm from its face: snow is round at its end, no slab stands up there. On wide ground the
 // snow beside the same board buries its edge.
 TEST(SnowShape, ABoardIsRoundWhereNoSnowReachesUpToIt)

@@ -55,17 +55,18 @@ vec4 snow_map_at(SurfaceInput at, int number)
     return texel_from_above(snow_map, at, frame.look.snow_tiling[number], vec2(0.0));
 }
 
-// Where the masks lie, in metres: from above they would be streaks on what is steep.
-Uv mask_place(SurfaceInput at)
-{
-    if (at.normal.y < 0.6) return metres_along(at);
-    return Uv(at.position.xz, at.position_dx.xz, at.position_dy.xz);
-}
+// How far the masks are read from the side: from above they would be streaks on what is steep.
+float mask_beside(SurfaceInput at) { return 1.0 - smooth_edge(0.5, 0.7, at.normal.y); }
 
 float snow_mask_at(SurfaceInput at, int number)
 {
     if ((SNOW & SNOW_LOCAL) != 0u) return snow_map_at(at, number).b;
-    return texel(snow_map, scaled(mask_place(at), frame.look.snow_tiling[number])).b;
+    const float tiling = frame.look.snow_tiling[number];
+    const float beside = mask_beside(at);
+    float mask = 0.0;
+    if (beside < 1.0) mask += (1.0 - beside) * texel(snow_map, scaled(metres_above(at), tiling)).b;
+    if (beside > 0.0) mask += beside * texel(snow_map, scaled(metres_beside(at), tiling)).b;
+    return mask;
 }
 
 // Where snow lies first. Of wide ground by two readings of the map, whatever map that is: its coarsest level is its mean.
@@ -74,7 +75,7 @@ float snow_mask(SurfaceInput at)
     const float first = snow_mask_at(at, kSnowMask);
     if ((BESIDES & BESIDES_WIDE_GROUND) == 0u || (SNOW & SNOW_LOCAL) != 0u) return first;
     const float tiling = frame.look.snow_tiling[kSnowMask];
-    const Uv along = scaled(mask_place(at), tiling);
+    const Uv along = scaled(metres_along(at), tiling);
     const Uv other = Uv(place_across(along.at), place_across(along.dx), place_across(along.dy));
     return mask_of_two(first, texel(snow_map, other).b, textureLod(snow_map, along.at, 16.0).b);
 }

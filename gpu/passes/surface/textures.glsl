@@ -51,17 +51,22 @@ vec4 texel_from_above(sampler2D map, SurfaceInput at, float tiling, vec2 shift)
                        at.position_dy.xz * tiling);
 }
 
-// Where such a map lies along the surface, in metres: from above on level ground, from the side on walls.
+// Where such a map lies along the surface, in metres: seen from above ..
+Uv metres_above(SurfaceInput at) { return Uv(at.position.xz, at.position_dx.xz, at.position_dy.xz); }
+
+// .. or from the side that it faces.
+Uv metres_beside(SurfaceInput at)
+{
+    const bool side = abs(at.normal.x) > abs(at.normal.z);
+    return Uv(side ? at.position.zy : at.position.xy, side ? at.position_dx.zy : at.position_dx.xy,
+              side ? at.position_dy.zy : at.position_dy.xy);
+}
+
+// From above on level ground, from the side on walls.
 Uv metres_along(SurfaceInput at)
 {
-    const vec3 n = abs(at.normal);
-    const bool above = n.y > 0.6;
-    const bool side = n.x > n.z;
-    Uv result;
-    result.at = above ? at.position.xz : side ? at.position.zy : at.position.xy;
-    result.dx = above ? at.position_dx.xz : side ? at.position_dx.zy : at.position_dx.xy;
-    result.dy = above ? at.position_dy.xz : side ? at.position_dy.zy : at.position_dy.xy;
-    return result;
+    if (abs(at.normal.y) > 0.6) return metres_above(at);
+    return metres_beside(at);
 }
 
 Uv scaled(Uv uv, float tiling)

@@ -22,8 +22,14 @@ constexpr float kBroad_m = SnowCaps::kFillDepths_m[3];  // whose surface tells h
 constexpr float kBuries_m = 0.08f;  // what lies so far over something all around leaves it no snow
 constexpr float kRelief_m = 0.02f;
 constexpr float kMostFill = 0.9f;   // of the depth, up or down
+constexpr float kThin_m = 0.02f;    // half the width of what keeps its own cap in any snow ..
+constexpr float kNotThin_m = 0.045f;  // .. and of a kerb, which does not
 constexpr float kNear_m = 14.0f;
 constexpr float kCell_m = 0.025f;
+constexpr float kClose_m = 2.2f;      // what is looked at from here is a thing on a table ..
+constexpr float kCloseCell_m = 0.006f;
+constexpr float kCloseUp = 0.5f;      // .. as long as its cells are so much finer
+constexpr float kCells = 9.0f;        // along a radius: a circle of a few hundred cells is enough
 constexpr float kFarCell_m = 0.1f;
 constexpr float kHolds = 0.02f;    // share of the depth: less is no ground that snow lies on
 
@@ -124,8 +130,7 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
     const vec2 at = (place - low_) / cell_m_ - 0.5f;
     const float reach = radius / cell_m_;
     const float highest = std::max(1.75f * depth_m, kCovered_m);
-    // A circle of a few hundred cells is enough.
-    const int stride = reach > 9.0f ? 2 : 1;
+    const int stride = std::max(static_cast<int>(std::ceil(reach / kCells)), 1);
     const int x0 = std::max(static_cast<int>(std::ceil(at.x - reach)), 0), x1 = std::min(static_cast<int>(std::floor(at.x + reach)), width_ - 1);
     const int z0 = std::max(static_cast<int>(std::ceil(at.y - reach)), 0), z1 = std::min(static_cast<int>(std::floor(at.y + reach)), height_ - 1);
     CirclePlane plane;
@@ -169,11 +174,14 @@ Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>&
         return nearest;
     };
     const Sheet near(caps, mesh, kCell_m, [&](const vec3& p) { return eye_m(p) < kNear_m; });
+    const Sheet close(caps, mesh, kCloseCell_m, [&](const vec3& p) { return !options.eyes_m.empty() && eye_m(p) < kClose_m; });
+    const float close_m = !options.eyes_m.empty() && close.width() > 0 && close.cell_m() < kCloseUp * kCell_m ? kClose_m - 0.5f : 0.0f;
     const Sheet far(caps, mesh, kFarCell_m, [](const vec3&) { return true; });
     const std::vector<float> away = rims_on_ground(caps, mesh, joints, tracer);
     for (std::size_t i = 0; i < caps.points.size(); ++i) {
         SnowCaps::Point& point = caps.points[i];
-        const Sheet& sheet = eye_m(point.base_m) < kNear_m - 1.0f ? near : far;
+        const float eye = eye_m(point.base_m);
+        const Sheet& sheet = eye < close_m ? close : eye < kNear_m - 1.0f ? near : far;
         const float dip = 1.0f - shared::smooth_edge(0.0f, kDipWidth_m, away[i]);
         const float inside = shared::smooth_edge(0.0f, kAtEdge_m, point.edge_m);
         float open = point.broad, broad = point.share, seen = 1.0f;
@@ -186,7 +194,8 @@ Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>&
             // Of posts and small things most of the circle is not: they keep their shape.
             const float most = std::max(kRelief_m, kMostFill * depth);
             const float whole = shared::smooth_edge(0.35f, 0.6f, there.whole);
-            if (depth == kShelter_m) point.wide = whole;
+            // Nor is a tube or a strap a step of what it lies on.
+            if (depth == kShelter_m) point.wide = whole * shared::smooth_edge(kThin_m, kNotThin_m, point.support_m);
             float fill = counts * whole * std::clamp(there.height_m - point.base_m.y, -most, most);
             fill -= dip * (k == 0 ? 0.5f : 1.0f) * (kDips_m + std::max(fill, 0.0f));
             point.fill_m[k] = fill;

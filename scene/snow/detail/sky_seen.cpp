@@ -84,7 +84,7 @@ void look_up(CutMesh& mesh, const Tracer& tracer, SkySeen& seen)
                 if (known[point] || count[point] >= 3.0f) continue;
                 const vec3 way = middle - p.positions[v];
                 const float length = glm::length(way);
-                const vec3 at = p.positions[v] + way * std::min(0.08f / std::max(length, 1.0e-6f), 0.9f);
+                const vec3 at = p.positions[v] + way * std::min(0.08f / std::max(length, 1.0e-6f), 0.3f);
                 if (inside_solid(tracer, at)) {
                     buried[point] = true;
                     continue;
