@@ -295,11 +295,13 @@ INSTANTIATE_TEST_SUITE_P(Maps, ChainFit, testing::Bool(), [](const auto& which) 
     return which.param ? "SmoothnessGreenDown" : "RoughnessGreenUp";
 });
 
-TEST(ChainFitRule, SameNumbersForAnyThreads)
+class ChainFitOf : public testing::TestWithParam<SurfaceClass> {};
+
+TEST_P(ChainFitOf, SameNumbersForAnyThreads)
 {
     const ScoredMaps maps = cloth(48);
     const PictureBench bench(maps.normal, maps.roughness, {}, few_pixels());
-    PrefilterOptions options{.rule = "picture", .quick = true};
+    PrefilterOptions options{.rule = "picture", .quick = true, .surface = GetParam()};
     const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
     Prefiltered one = start, three = start;
     options.threads = 1;
@@ -313,6 +315,38 @@ TEST(ChainFitRule, SameNumbersForAnyThreads)
         moved |= one.normal[k].pixels != start.normal[k].pixels;
     }
     EXPECT_TRUE(moved);
+}
+INSTANTIATE_TEST_SUITE_P(Surfaces, ChainFitOf,
+                         testing::Values(SurfaceClass::Both, SurfaceClass::Metal),
+                         [](const auto& which) {
+                             return which.param == SurfaceClass::Metal ? "Metal" : "Both";
+                         });
+
+// Metal is fitted twice: first to the mean of all pictures, then with those counted more that are worse
+// than with plain mips. What the second gives is nearer to plain mips in the worst of them.
+TEST(ChainFitRule, MetalIsFittedToTheMeanAndThenToTheWorst)
+{
+    const ScoredMaps maps = cloth(96);
+    PictureOptions o = few_pixels();
+    for (PictureLight& light : o.lights) light.sky = light.alpha > 0.0f ? 0.0f : 0.1f;
+    o.cases = {{0, 0, true}, {0, 1, true}, {0, 2, true}};
+    const PictureBench bench(maps.normal, maps.roughness, {}, o);
+    PrefilterOptions options{.rule = "picture", .quick = true, .surface = SurfaceClass::Metal};
+    const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
+    Prefiltered fitted = start, bold;
+    ASSERT_TRUE(fit_chain(bench.levels(), options, fitted, [&] { bold = fitted; }));
+    const auto plain = bench.score({});
+    const auto worst = [&](const Prefiltered& chain) {
+        const auto scores = bench.score(chain);
+        double most = -1.0;
+        for (std::size_t i = 0; i < scores.size(); ++i)
+            most = std::max(most, scores[i].rmse / plain[i].rmse - 1.0);
+        return most;
+    };
+    EXPECT_LT(worst(fitted), worst(bold) - 0.01);
+    options.surface = SurfaceClass::Paint;
+    Prefiltered paint = start;
+    EXPECT_TRUE(fit_chain(bench.levels(), options, paint, [] { FAIL() << "paint is fitted once"; }));
 }
 
 TEST(ChainFitRule, FullQualityHoldsStillerThanQuick)
