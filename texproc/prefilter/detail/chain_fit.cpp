@@ -46,6 +46,8 @@ constexpr float kFlicker =
 constexpr float kKeep = 0.9f, kKeepSquare = 0.99f;  // of Adam (Kingma & Ba 2015)
 constexpr float kNothing2 = 3e-6f;                  // a mean square of errors that nobody sees
 constexpr float kWorseMetal = 2.0f;
+constexpr float kApart = 0.25f;  // how far the roughness of two lobes lies from that of one at first, a share of what it can
+constexpr float kLeastLobe = 0.02f;  // the share of a lobe stays above: what has no part finds no way back
 constexpr float kDegree = 0.0174532925f, kTurn = 6.28318531f;
 
 class Dice {
@@ -177,17 +179,24 @@ public:
     void store(Prefiltered& chain) const;
 
 private:
-    FitLevel level(std::size_t k, FitSlope* slopes) const
+    bool is_fitted(std::size_t k) const { return k >= first_ && k <= last_; }
+    bool two() const { return options_.lobes == 2; }
+    FitLevel level(std::size_t k, FitSlope* slopes, FitLobe* second_slopes) const
     {
-        return {plain_[k].width, plain_[k].height, texels_[k].data(),
-                k < first_ || k > last_ ? nullptr : slopes};
+        return {plain_[k].width,
+                plain_[k].height,
+                texels_[k].data(),
+                is_fitted(k) ? slopes : nullptr,
+                two() ? second_[k].data() : nullptr,
+                is_fitted(k) ? second_slopes : nullptr};
     }
+    void start_two(std::size_t k);
+    void move_second(std::size_t k, std::size_t i, std::size_t slot_offset, const auto& moved);
     void draw(Pool& pool, std::size_t number);
     void show(const Footprint& footprint, FitView& view, FitPixel* pixels, Dice& dice,
               float* light) const;
     bool expose(Pool& pool, Picture& picture, const std::vector<float>& light) const;
-    Errors errors(const Pool& pool, const Picture& picture,
-                  const std::vector<std::vector<FitTexel>>& of) const;
+    Errors errors(const Pool& pool, const Picture& picture, bool plain) const;
     void weigh(Pool& pool, const Picture& picture, float worse) const;
     void step(const Pool& pool, const std::vector<std::size_t>& views, float rate);
     void move(std::size_t k, std::size_t slot_offset, std::size_t pixels, float rate);
@@ -198,6 +207,7 @@ private:
     const std::size_t pixels_;  // of a view
     FitMeaning meaning_;
     std::vector<std::vector<FitTexel>> texels_, plain_texels_;
+    std::vector<std::vector<FitLobe>> second_;  // with two lobes
     std::size_t first_ = 1, last_ = 0;  // levels that are fitted
     std::vector<Pool> pools_;
     bool seen_ = false;  // plain mips are off somewhere
@@ -205,8 +215,10 @@ private:
     // Of Adam: means of slopes and of their squares, and steps, of a level.
     std::vector<std::vector<FitSlope>> mean_;
     std::vector<std::vector<FitSlope>> square_;
+    std::vector<std::vector<FitLobe>> second_mean_, second_square_;
     std::vector<int> steps_;
     std::array<std::vector<FitSlope>, kSlots> slopes_;
+    std::array<std::vector<FitLobe>, kSlots> second_slopes_;
 };
 
 ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const Prefiltered& chain)
@@ -217,9 +229,12 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
       meaning_{options.smoothness, options.alpha},
       texels_(plain.size()),
       plain_texels_(plain.size()),
+      second_(plain.size()),
       colors_metal_(!chain.metal_share.empty()),
       mean_(plain.size()),
       square_(plain.size()),
+      second_mean_(plain.size()),
+      second_square_(plain.size()),
       steps_(plain.size(), 0)
 {
     const auto count = [&](std::size_t k) {
@@ -236,7 +251,7 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
         for (std::size_t i = 0; i < texels_[k].size(); ++i) {
             const Texel t = plain[k].at(i);
             FitTexel& to = texels_[k][i];
-            to = {{t.n.x, t.n.y, t.n.z}, t.stored, 1.0f, 1.0f, {}};
+            to = {{t.n.x, t.n.y, t.n.z}, t.stored, 1.0f, 1.0f, 0.5f, 0.0f};
             plain_texels_[k][i] = to;
             if (k == 0) continue;
             to.stored = chain.roughness[k].pixels[i];
@@ -245,9 +260,28 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
         }
         mean_[k].resize(k ? count(k) : 0);
         square_[k].resize(k ? count(k) : 0);
+        if (two()) start_two(k);
     }
     pools_.resize(last_ - first_ + 2);
     for (std::size_t i = 0; i < pools_.size(); ++i) draw(pools_[i], i);
+}
+
+// Half of the light each, one lobe narrower and one wider: from two that are the same no slope would lead
+// them apart. Levels that are not fitted keep two that are the same.
+void ChainFit::start_two(std::size_t k)
+{
+    std::vector<FitTexel>& texels = texels_[k];
+    second_[k].resize(texels.size());
+    second_mean_[k].resize(mean_[k].size());
+    second_square_[k].resize(mean_[k].size());
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        FitTexel& t = texels[i];
+        second_[k][i] = {{t.n[0], t.n[1], t.n[2]}, t.stored};
+        if (!is_fitted(k)) continue;
+        const float p = perceptual(t.stored, options_);
+        t.stored = stored_value(p - kApart * p, options_);
+        second_[k][i].stored = stored_value(p + kApart * std::min(p, 1.0f - p), options_);
+    }
 }
 
 void ChainFit::draw(Pool& pool, std::size_t number)
@@ -358,16 +392,16 @@ bool ChainFit::expose(Pool& pool, Picture& picture, const std::vector<float>& li
                 static_cast<std::uint16_t>(shown * 65535.0f + 0.5f);
         }
     }
-    picture.plain = errors(pool, picture, plain_texels_);
+    picture.plain = errors(pool, picture, true);
     return std::any_of(picture.plain.squares.begin(), picture.plain.squares.end(),
                        [](float squares) { return squares > 2.0f * kNothing2; });
 }
 
-Errors ChainFit::errors(const Pool& pool, const Picture& picture,
-                        const std::vector<std::vector<FitTexel>>& of) const
+Errors ChainFit::errors(const Pool& pool, const Picture& picture, bool plain) const
 {
     const auto at = [&](std::size_t k) {
-        return FitLevel{plain_[k].width, plain_[k].height, of[k].data(), nullptr};
+        return plain ? FitLevel{plain_[k].width, plain_[k].height, plain_texels_[k].data(), nullptr}
+                     : level(k, nullptr, nullptr);
     };
     const FitLevel fine = at(pool.fine), coarse = at(std::min(pool.fine + 1, plain_.size() - 1));
     std::vector<float> light(pixels_ * kFitLights);
@@ -401,7 +435,7 @@ Errors ChainFit::errors(const Pool& pool, const Picture& picture,
 // worse: how much more a picture counts that is worse than that of plain mips.
 void ChainFit::weigh(Pool& pool, const Picture& picture, float worse) const
 {
-    const Errors now = errors(pool, picture, texels_);
+    const Errors now = errors(pool, picture, false);
     for (std::size_t l = 0; l < kFitLights; ++l) {
         const float plain = picture.plain.squares[l], ratio = std::sqrt(now.squares[l] / plain);
         float weight = 1.0f / std::sqrt(plain * now.squares[l]);
@@ -431,11 +465,11 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
         (texels_[k].size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
             const std::size_t end = std::min((block + 1) * kBlock, texels_[k].size());
             for (std::size_t i = block * kBlock; i < end; ++i) {
-                float slope[5] = {};
+                float slope[6] = {};
                 for (std::vector<FitSlope>& slot : slopes_) {
                     FitSlope& s = slot[slot_offset + i];
                     for (int c = 0; c < 3; ++c) slope[c] += s.n[c];
-                    slope[3] += s.stored, slope[4] += s.metal;
+                    slope[3] += s.stored, slope[4] += s.metal, slope[5] += s.of_second;
                     s = {};
                 }
                 FitSlope &mean = mean_[k][i], &square = square_[k][i];
@@ -459,8 +493,32 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
                 }
                 const float length = std::sqrt(std::max(square_length, 1e-12f));
                 for (float& n_c : t.n) n_c /= length;
+                if (!two()) continue;
+                t.of_second = std::clamp(moved(t.of_second, slope[5], mean.of_second, square.of_second),
+                                         kLeastLobe, 1.0f - kLeastLobe);
+                move_second(k, i, slot_offset, moved);
             }
         });
+}
+
+void ChainFit::move_second(std::size_t k, std::size_t i, std::size_t slot_offset, const auto& moved)
+{
+    FitLobe slope{};
+    for (std::vector<FitLobe>& slot : second_slopes_) {
+        FitLobe& s = slot[slot_offset + i];
+        for (int c = 0; c < 3; ++c) slope.n[c] += s.n[c];
+        slope.stored += s.stored;
+        s = {};
+    }
+    FitLobe &t = second_[k][i], &mean = second_mean_[k][i], &square = second_square_[k][i];
+    t.stored = std::clamp(moved(t.stored, slope.stored, mean.stored, square.stored), 0.0f, 1.0f);
+    float square_length = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        t.n[c] = moved(t.n[c], slope.n[c], mean.n[c], square.n[c]);
+        square_length += t.n[c] * t.n[c];
+    }
+    const float length = std::sqrt(std::max(square_length, 1e-12f));
+    for (float& n_c : t.n) n_c /= length;
 }
 
 void ChainFit::step(const Pool& pool, const std::vector<std::size_t>& views, float rate)
@@ -469,9 +527,11 @@ void ChainFit::step(const Pool& pool, const std::vector<std::size_t>& views, flo
     const std::size_t offset = pool.fine < first_ ? 0 : texels_[pool.fine].size();
     parallel_for(std::min(kSlots, views.size()), options_.threads, [&](std::size_t slot) {
         FitSlope* const to = slopes_[slot].data();
+        FitLobe* const second = two() ? second_slopes_[slot].data() : nullptr;
         for (std::size_t i = slot; i < views.size(); i += kSlots)
             chain_fit_kernel().add_slopes(
-                pool.views[views[i]], meaning_, level(pool.fine, to), level(coarse, to + offset),
+                pool.views[views[i]], meaning_, level(pool.fine, to, second),
+                level(coarse, to + offset, second ? second + offset : nullptr),
                 &pool.pixels[views[i] * pixels_], static_cast<int>(pixels_));
     });
     move(pool.fine, 0, views.size() * pixels_, rate);
@@ -484,6 +544,7 @@ void ChainFit::fit(const Stage& stage)
     for (std::size_t k = first_; k <= last_; ++k)
         most = std::max(most, texels_[k].size() + (k < last_ ? texels_[k + 1].size() : 0));
     for (std::vector<FitSlope>& slot : slopes_) slot.assign(most, {});
+    for (std::vector<FitLobe>& slot : second_slopes_) slot.assign(two() ? most : 0, {});
     // All steps of a pass in one order: levels by turns.
     struct Step {
         std::size_t pool, first, count;
@@ -520,16 +581,22 @@ void ChainFit::fit(const Stage& stage)
 
 void ChainFit::store(Prefiltered& chain) const
 {
+    const auto store_normal = [&](const float* n, float* to) {
+        to[0] = 0.5f + 0.5f * n[0];
+        to[1] = 0.5f + 0.5f * (options_.green_down ? -n[1] : n[1]);
+        to[2] = 0.5f + 0.5f * n[2];
+    };
     for (std::size_t k = first_; k <= last_; ++k) {
         for (std::size_t i = 0; i < texels_[k].size(); ++i) {
             const FitTexel& t = texels_[k][i];
             chain.roughness[k].pixels[i] = t.stored;
             if (!options_.joint) continue;
             if (colors_metal_) chain.metal_share[k].pixels[i] = t.metal;
-            float* n = &chain.normal[k].pixels[3 * i];
-            n[0] = 0.5f + 0.5f * t.n[0];
-            n[1] = 0.5f + 0.5f * (options_.green_down ? -t.n[1] : t.n[1]);
-            n[2] = 0.5f + 0.5f * t.n[2];
+            store_normal(t.n, &chain.normal[k].pixels[3 * i]);
+            if (!two()) continue;
+            store_normal(second_[k][i].n, &chain.second.normal[k].pixels[3 * i]);
+            chain.second.roughness[k].pixels[i] = second_[k][i].stored;
+            chain.second.share[k].pixels[i] = t.of_second;
         }
     }
 }

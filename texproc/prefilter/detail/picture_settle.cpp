@@ -76,6 +76,13 @@ void settle_fit(const PictureBench& bench, const std::vector<PictureScore>& plai
             chain.metal_share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,
                                          ColorSpace::Data, 1.0f);
     }
+    if (options.lobes == 2) {
+        chain.second = {chain.normal, chain.roughness, std::vector<Image>(levels)};
+        chain.second.normal[0] = chain.second.roughness[0] = Image();
+        for (std::size_t k = 1; k < levels; ++k)
+            chain.second.share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,
+                                          ColorSpace::Data, 0.5f);
+    }
     const bool colors_metal = !chain.metal_share.empty();
     // Of each level: which of the fits, how much of it, and how much of its colour of metal.
     struct Share {
@@ -84,9 +91,10 @@ void settle_fit(const PictureBench& bench, const std::vector<PictureScore>& plai
         bool operator==(const Share&) const = default;
     };
     using Shares = std::vector<Share>;
-    constexpr std::size_t kParts = 3;
-    const std::array<std::vector<Image>*, kParts> parts{&chain.roughness, &chain.normal,
-                                                        &chain.metal_share};
+    constexpr std::size_t kParts = 6, kMetal = 2;
+    const std::array<std::vector<Image>*, kParts> parts{
+        &chain.roughness,     &chain.normal,           &chain.metal_share,
+        &chain.second.normal, &chain.second.roughness, &chain.second.share};
     using Kept = std::vector<std::array<Image, kParts>>;
     const auto kept = [&] {
         Kept all(levels);
@@ -109,7 +117,7 @@ void settle_fit(const PictureBench& bench, const std::vector<PictureScore>& plai
             for (std::size_t i = 0; i < kParts; ++i)
                 if (k < parts[i]->size())
                     mix(before[k][i], after[shares[k].fit][k][i],
-                        i == 2 ? shares[k].metal : shares[k].fitted, (*parts[i])[k]);
+                        i == kMetal ? shares[k].metal : shares[k].fitted, (*parts[i])[k]);
         }
         now = shares;
     };
