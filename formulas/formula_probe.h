@@ -28,6 +28,7 @@
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/patch_cells.h"
 #include "formulas/light/reflection_probe.h"
+#include "formulas/light/second_lobe.h"
 #include "formulas/light/shadow_plane.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
@@ -52,7 +53,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 62;
+SHARED_CONST int kProbeKinds = 63;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -555,6 +556,13 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 circle = on_circle(c.x);
         return vec4(float(int(quad.x & 65535u)) + circle.x, float(int(quad.y >> 16u)) + circle.y,
                     share_passed(quad, b.x, vec2(b.y, b.z)), share_passed(quad, a.z, vec2(b.y, b.z)));
+    }
+    if (kind == 62) {
+        const SecondLobe lobe = second_lobe_of(vec4(0.2f + 0.6f * a.x, 0.2f + 0.6f * a.y, a.z, a.w));
+        const vec3 mean = diffuse_normal(probe_direction(b.x, b.y), lobe);
+        const vec3 shine = shine_of_both(splat3(b.z), vec3(c.x, c.y, c.z), lobe);
+        return vec4(mean.x + 2.0f * mean.y + 3.0f * mean.z, lobe.normal.x + 2.0f * lobe.normal.z, lobe.roughness + lobe.share,
+                    shine.x + shine.y + shine.z);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

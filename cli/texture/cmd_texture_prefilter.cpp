@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -24,7 +25,7 @@ namespace {
 
 struct Arguments {
     PrefilterInput input;
-    std::string out, normal_out, anisotropy_out, base_share_out, metal_share_out;
+    std::string out, normal_out, anisotropy_out, base_share_out, metal_share_out, second_lobe_out;
     std::string quality = "full", surface = "both";
     std::string format, normal_format;
     int bits = 16;
@@ -59,7 +60,7 @@ void print_score(const Arguments& a, const PrefilterMaps& maps, const BlockFit& 
 void take_options(Arguments& a)
 {
     for (const std::string& name : {a.out, a.normal_out, a.anisotropy_out, a.base_share_out,
-                                    a.metal_share_out}) {
+                                    a.metal_share_out, a.second_lobe_out}) {
         if (!name.empty()) check_chain_name(name);
     }
     texproc::PrefilterOptions& o = a.input.options;
@@ -83,12 +84,47 @@ void take_options(Arguments& a)
                     "normals and metal",
                     "Add --normal-out, or leave --metal-share-out out.");
     }
+    if (!a.second_lobe_out.empty()) o.lobes = 2;
     // Re-aimed normals are of use only where they are written. Blocks choose their own codes.
     if (a.normal_out.empty()) {
         o.joint = false;
     } else if (!block_of(a.normal_format) && !block_of(a.format)) {
         o.bits = a.bits;
     }
+}
+
+// RG normal, B roughness, A share (formulas/light/second_lobe.h); of level 0 both lobes are the same.
+Image second_lobe(const Image& normal, const Image& roughness, const Image* share)
+{
+    Image to(normal.width, normal.height, 4, ColorSpace::Data, 0.5f);
+    for (std::size_t i = 0; i < roughness.pixels.size(); ++i) {
+        std::copy_n(&normal.pixels[3 * i], 2, &to.pixels[4 * i]);
+        to.pixels[4 * i + 2] = roughness.pixels[i];
+        if (share) to.pixels[4 * i + 3] = share->pixels[i];
+    }
+    return to;
+}
+
+void write_second_lobe(const Arguments& a, const PrefilterMaps& maps, const texproc::Prefiltered& chains)
+{
+    const texproc::PrefilterOptions& o = a.input.options;
+    const Image normal = texproc::to_image(maps.normal, ColorSpace::Data),
+                map = texproc::to_image(maps.map, ColorSpace::Data);
+    Image xy(normal.width, normal.height, 3, ColorSpace::Data), rough(map.width, map.height, 1, ColorSpace::Data);
+    const auto channel = [](const Image& from, std::size_t i, int c) {
+        return from.pixels[i * static_cast<std::size_t>(from.channels) + static_cast<std::size_t>(c)];
+    };
+    for (std::size_t i = 0; i < rough.pixels.size(); ++i) {
+        xy.pixels[3 * i] = channel(normal, i, o.normal_x);
+        xy.pixels[3 * i + 1] = channel(normal, i, o.normal_y);
+        rough.pixels[i] = channel(map, i, map.channels == 1 ? 0 : o.channel);
+    }
+    std::vector<Image> levels(1);
+    for (std::size_t k = 1; k < chains.second.share.size(); ++k)
+        levels.push_back(second_lobe(chains.second.normal[k], chains.second.roughness[k], &chains.second.share[k]));
+    const texproc::PixelType type = a.bits == 8 ? texproc::PixelType::U8 : texproc::PixelType::U16;
+    write_chain({a.second_lobe_out, "", a.bits, o.threads, {}},
+                texproc::to_raw(second_lobe(xy, rough, nullptr), type), "", levels);
 }
 
 void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit& fit,
@@ -100,6 +136,7 @@ void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit&
     if (!whole) channel = texproc::channel_of(maps.map, o.channel);
     write_chain({a.out, a.format, a.bits, o.threads, fit.roughness_weights},
                 whole ? maps.map : channel, whole ? maps.map_path : "", chains.roughness);
+    if (!a.second_lobe_out.empty()) write_second_lobe(a, maps, chains);
     if (!a.normal_out.empty()) {
         for (std::size_t k = 1; k < chains.normal.size(); ++k) {
             chains.normal[k] =
@@ -219,6 +256,9 @@ void add_texture_prefilter(CLI::App& texture)
                     "picture: what to multiply the base colour of level k by: 'share_%d.png'");
     app->add_option("--metal-share-out", a->metal_share_out,
                     "picture in full: the same of metal, 'metal_%d.png'");
+    app->add_option("--second-lobe-out", a->second_lobe_out,
+                    "picture in full: a second lobe of level k, normal RG, roughness B, share A: 'lobe_%d.png'; read as "
+                    "formulas/light/second_lobe.h says");
     app->add_option("--surface", a->surface,
                     "picture in full: paint (anything but metal), metal, or both, which is a little "
                     "worse on either")

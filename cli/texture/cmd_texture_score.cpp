@@ -110,6 +110,9 @@ void run(Arguments& a)
         throw Error("score: --picture and --protocol are two measures",
                     "Ask for one of them at a time.");
     }
+    if (a.protocol.lobes != 1 && a.protocol.pictures.empty()) {
+        throw Error("score: --lobes is for --picture", "Add --picture quick, or leave --lobes out.");
+    }
     if (!a.protocol.pictures.empty()) {
         run_score_picture(a.protocol, a.input.reading, a.input.options.threads);
         return;
@@ -178,6 +181,9 @@ void add_texture_score(CLI::App& texture)
            "score every rule by lit floors under a moving camera against supersampled ones: full "
            "(18 views and lights) or quick (5)")
         ->check(CLI::IsMember({"full", "quick"}));
+    app->add_option("--lobes", a->protocol.lobes,
+                    "--picture: lobes of a texel that the rule picture in full quality may take")
+        ->check(CLI::Range(1, 2));
     app->add_option("--sheet", a->protocol.sheet,
                     "--picture: a PNG of plain mips, the rules and the truth side by side");
     app->add_option("SETS", a->protocol.sets,

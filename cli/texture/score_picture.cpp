@@ -135,6 +135,7 @@ void run_score_picture(const ProtocolRequest& request, const texproc::ReadOption
             options.bits = variants[i].bits == 8 ? 8 : 0;
             const bool by_class = options.rule == "picture" && !options.quick;
             if (by_class) options.surface = texproc::SurfaceClass::Paint;
+            if (by_class) options.lobes = request.lobes;
             texproc::Prefiltered chain =
                 texproc::prefilter_raw(maps.normal, maps.roughness, options);
             texproc::quantize(chain, variants[i].bits);

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "texproc/prefilter/detail/chain_fit_kernel.h"
 #include "texproc/prefilter/picture.h"
 #include "texproc/study/fresh_maps.h"
@@ -78,7 +80,7 @@ TEST(ChainFitKernel, SharesDarkenAsTheyDoOnTheFloor)
     for (float& exposure : view.exposure) exposure = 1.0f;
     const glm::vec3 eye(view.lights.eye[0], view.lights.eye[1], view.lights.eye[2]);
     const Texel t{glm::normalize(glm::vec3(0.2f, -0.1f, 1.0f)), 0.5f, 0.7f, 0.6f};
-    const std::vector<FitTexel> level(4, {{t.n.x, t.n.y, t.n.z}, t.stored, t.diffuse, t.metal, {}});
+    const std::vector<FitTexel> level(4, {{t.n.x, t.n.y, t.n.z}, t.stored, t.diffuse, t.metal, 0.5f, 0.0f});
     const FitLevel map{2, 2, level.data(), nullptr};
     const FitPixel pixel{0.3f, 0.6f, {}};
     float light[kLights];
@@ -91,14 +93,43 @@ TEST(ChainFitKernel, SharesDarkenAsTheyDoOnTheFloor)
     }
 }
 
+// Two lobes of a texel, and what is diffuse by the normal between them.
+TEST(ChainFitKernel, TwoLobesShadeAsTheyDoOnTheFloor)
+{
+    std::vector<FloorLight> floor;
+    FitView view{};
+    view.lights = lights(floor);
+    view.taps = 1;
+    for (float& exposure : view.exposure) exposure = 1.0f;
+    const glm::vec3 eye(view.lights.eye[0], view.lights.eye[1], view.lights.eye[2]);
+    const Texel t{glm::normalize(glm::vec3(0.2f, -0.1f, 1.0f)), 0.5f, 0.7f, 0.6f};
+    const SecondTexel second{glm::normalize(glm::vec3(-0.3f, 0.2f, 1.0f)), 0.3f, 0.35f};
+    const std::vector<FitTexel> level(4, {{t.n.x, t.n.y, t.n.z}, t.stored, t.diffuse, t.metal, second.share, 0.0f});
+    const std::vector<FitLobe> lobes(4, {{second.n.x, second.n.y, second.n.z}, second.stored});
+    const FitLevel map{2, 2, level.data(), nullptr, lobes.data(), nullptr}, one{2, 2, level.data(), nullptr};
+    const FitPixel pixel{0.3f, 0.6f, {}};
+    float light[kLights], of_one[kLights];
+    chain_fit_kernel().seen(view, {}, map, map, &pixel, 1, light);
+    chain_fit_kernel().seen(view, {}, one, one, &pixel, 1, of_one);
+    for (std::size_t i = 0; i < kLights; ++i) {
+        const float known = shade(t, t.stored, second, second.stored, eye, floor[i]);
+        EXPECT_NEAR(light[i], known, 1e-4f * known + 1e-6f) << i;
+        EXPECT_GT(std::abs(light[i] - of_one[i]), 1e-3f * known) << i << ": or this shows nothing";
+        // Two lobes that are the same are one.
+        const float same = shade(t, t.stored, {t.n, t.stored, second.share}, t.stored, eye, floor[i]);
+        EXPECT_NEAR(same, shade(t, t.stored, eye, floor[i]), 1e-5f * same + 1e-7f) << i;
+    }
+}
+
 // A view of two levels with noise on them.
 struct Scene {
     FitView view{};
     std::vector<FitTexel> fine, coarse;
     std::vector<FitSlope> fine_slopes, coarse_slopes;
+    std::vector<FitLobe> fine_second, coarse_second, fine_second_slopes, coarse_second_slopes;
     std::vector<FitPixel> pixels;
 
-    Scene() : fine(16 * 16), coarse(8 * 8), fine_slopes(fine.size()), coarse_slopes(coarse.size())
+    explicit Scene(bool two = false) : fine(16 * 16), coarse(8 * 8), fine_slopes(fine.size()), coarse_slopes(coarse.size())
     {
         std::vector<FloorLight> floor;
         view.lights = lights(floor);
@@ -115,7 +146,7 @@ struct Scene {
         for (std::vector<FitTexel>* level : {&fine, &coarse}) {
             for (FitTexel& t : *level) {
                 const glm::vec3 n = glm::normalize(glm::vec3(dice() - 0.5f, dice() - 0.5f, 1.0f));
-                t = {{n.x, n.y, n.z}, 0.4f + 0.4f * dice(), 0.9f, 0.8f, {}};
+                t = {{n.x, n.y, n.z}, 0.4f + 0.4f * dice(), 0.9f, 0.8f, 0.5f, 0.0f};
             }
         }
         for (int i = 0; i < 20 * kFitFrames; ++i) {
@@ -124,11 +155,24 @@ struct Scene {
                 shown = static_cast<std::uint16_t>(20000.0f * dice());
             pixels.push_back(p);
         }
+        for (const auto& [level, lobes, slopes] :
+             {std::tuple(&fine, &fine_second, &fine_second_slopes), {&coarse, &coarse_second, &coarse_second_slopes}}) {
+            if (!two) break;
+            for (std::size_t i = 0; i < level->size(); ++i) {
+                const glm::vec3 n = glm::normalize(glm::vec3(dice() - 0.5f, dice() - 0.5f, 1.0f));
+                lobes->push_back({{n.x, n.y, n.z}, 0.5f + 0.3f * dice()});
+                (*level)[i].of_second = 0.2f + 0.6f * dice();
+            }
+            slopes->resize(lobes->size());
+        }
     }
     FitLevel level(bool of_fine)
     {
-        return of_fine ? FitLevel{16, 16, fine.data(), fine_slopes.data()}
-                       : FitLevel{8, 8, coarse.data(), coarse_slopes.data()};
+        const bool two = !fine_second.empty();
+        return of_fine ? FitLevel{16, 16, fine.data(), fine_slopes.data(), two ? fine_second.data() : nullptr,
+                                  fine_second_slopes.data()}
+                       : FitLevel{8, 8, coarse.data(), coarse_slopes.data(), two ? coarse_second.data() : nullptr,
+                                  coarse_second_slopes.data()};
     }
     // Nothing is clipped, and lights that are nearly black somewhere do not count: the slope is
     // held back in both.
@@ -177,11 +221,16 @@ struct Scene {
 };
 
 // Of one light at a time: slopes of several cancel, and what is left says little.
-TEST(ChainFitKernel, SlopesAreThoseOfTheError)
+class ChainFitLobes : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Lobes, ChainFitLobes, testing::Bool(),
+                         [](const auto& which) { return which.param ? "Two" : "One"; });
+
+TEST_P(ChainFitLobes, SlopesAreThoseOfTheError)
 {
-    double largest = 0.0, largest_of_metal = 0.0;
+    const bool two = GetParam();
+    double largest = 0.0, largest_of_metal = 0.0, largest_of_second = 0.0;
     for (std::size_t light = 0; light < kLights; ++light) {
-        Scene s;
+        Scene s(two);
         s.expose();
         for (std::size_t l = 0; l < kLights; ++l)
             if (l != light) s.view.weight[l] = s.view.flicker[l] = 0.0f;
@@ -193,12 +242,17 @@ TEST(ChainFitKernel, SlopesAreThoseOfTheError)
             for (const std::size_t i : {std::size_t{0}, texels.size() / 2, texels.size() - 3}) {
                 FitTexel& t = texels[i];
                 const FitSlope& slope = slopes[i];
-                float* const values[5] = {&t.n[0], &t.n[1], &t.n[2], &t.stored, &t.metal};
-                const float found[5] = {slope.n[0], slope.n[1], slope.n[2], slope.stored,
-                                        slope.metal};
-                for (int c = 0; c < 5; ++c) {
+                std::vector<float*> values = {&t.n[0], &t.n[1], &t.n[2], &t.stored, &t.metal};
+                std::vector<float> found = {slope.n[0], slope.n[1], slope.n[2], slope.stored, slope.metal};
+                if (two) {
+                    FitLobe& lobe = (of_fine ? s.fine_second : s.coarse_second)[i];
+                    const FitLobe& by = (of_fine ? s.fine_second_slopes : s.coarse_second_slopes)[i];
+                    values.insert(values.end(), {&t.of_second, &lobe.n[0], &lobe.n[1], &lobe.n[2], &lobe.stored});
+                    found.insert(found.end(), {slope.of_second, by.n[0], by.n[1], by.n[2], by.stored});
+                }
+                for (std::size_t c = 0; c < values.size(); ++c) {
                     float& value = *values[c];
-                    const float was = value, step = 0.02f;
+                    const float was = value, step = 0.01f;
                     value = was + step;
                     const double above = s.cost();
                     value = was - step;
@@ -210,28 +264,37 @@ TEST(ChainFitKernel, SlopesAreThoseOfTheError)
                         << light << " " << of_fine << " " << i << " " << c;
                     largest = std::max(largest, std::abs(known));
                     if (c == 4) largest_of_metal = std::max(largest_of_metal, std::abs(known));
+                    if (c == 5) largest_of_second = std::max(largest_of_second, std::abs(known));
                 }
             }
         }
     }
     EXPECT_GT(largest, 0.01);
     EXPECT_GT(largest_of_metal, 0.001);
+    if (two) {
+        EXPECT_GT(largest_of_second, 0.001);
+    }
 }
 
-TEST(ChainFitKernel, BothInstructionSetsGiveTheSameBits)
+TEST_P(ChainFitLobes, BothInstructionSetsGiveTheSameBits)
 {
 #if defined(__x86_64__)
     if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
 #endif
-    Scene a, b;
+    Scene a(GetParam()), b(GetParam());
     const int count = static_cast<int>(a.pixels.size());
     kChainFitKernelBase.add_slopes(a.view, {}, a.level(true), a.level(false), a.pixels.data(),
                                    count);
     kChainFitKernelAvx2.add_slopes(b.view, {}, b.level(true), b.level(false), b.pixels.data(),
                                    count);
-    const auto same = [](const std::vector<FitSlope>& x, const std::vector<FitSlope>& y) {
-        return std::memcmp(x.data(), y.data(), x.size() * sizeof(FitSlope)) == 0;
+    const auto same = [](const auto& x, const auto& y) {
+        return x.size() == y.size() && std::equal(x.begin(), x.end(), y.begin(), [](const auto& p, const auto& q) {
+                   return std::memcmp(&p, &q, sizeof p) == 0;
+               });
     };
+    EXPECT_EQ(a.fine_second_slopes.size(), GetParam() ? a.fine.size() : 0u);
+    EXPECT_TRUE(same(a.fine_second_slopes, b.fine_second_slopes));
+    EXPECT_TRUE(same(a.coarse_second_slopes, b.coarse_second_slopes));
     EXPECT_TRUE(same(a.fine_slopes, b.fine_slopes));
     EXPECT_TRUE(same(a.coarse_slopes, b.coarse_slopes));
 }
@@ -295,11 +358,13 @@ INSTANTIATE_TEST_SUITE_P(Maps, ChainFit, testing::Bool(), [](const auto& which) 
     return which.param ? "SmoothnessGreenDown" : "RoughnessGreenUp";
 });
 
-TEST(ChainFitRule, SameNumbersForAnyThreads)
+class ChainFitOf : public testing::TestWithParam<SurfaceClass> {};
+
+TEST_P(ChainFitOf, SameNumbersForAnyThreads)
 {
     const ScoredMaps maps = cloth(48);
     const PictureBench bench(maps.normal, maps.roughness, {}, few_pixels());
-    PrefilterOptions options{.rule = "picture", .quick = true};
+    PrefilterOptions options{.rule = "picture", .quick = true, .surface = GetParam()};
     const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
     Prefiltered one = start, three = start;
     options.threads = 1;
@@ -313,6 +378,75 @@ TEST(ChainFitRule, SameNumbersForAnyThreads)
         moved |= one.normal[k].pixels != start.normal[k].pixels;
     }
     EXPECT_TRUE(moved);
+}
+INSTANTIATE_TEST_SUITE_P(Surfaces, ChainFitOf,
+                         testing::Values(SurfaceClass::Both, SurfaceClass::Metal),
+                         [](const auto& which) {
+                             return which.param == SurfaceClass::Metal ? "Metal" : "Both";
+                         });
+
+// Metal is fitted twice: first to the mean of all pictures, then with those counted more that are worse
+// than with plain mips. What the second gives is nearer to plain mips in the worst of them.
+TEST(ChainFitRule, MetalIsFittedToTheMeanAndThenToTheWorst)
+{
+    const ScoredMaps maps = cloth(96);
+    PictureOptions o = few_pixels();
+    for (PictureLight& light : o.lights) light.sky = light.alpha > 0.0f ? 0.0f : 0.1f;
+    o.cases = {{0, 0, true}, {0, 1, true}, {0, 2, true}};
+    const PictureBench bench(maps.normal, maps.roughness, {}, o);
+    PrefilterOptions options{.rule = "picture", .quick = true, .surface = SurfaceClass::Metal};
+    const Prefiltered start = prefilter_raw(maps.normal, maps.roughness, options);
+    Prefiltered fitted = start, bold;
+    ASSERT_TRUE(fit_chain(bench.levels(), options, fitted, [&] { bold = fitted; }));
+    const auto plain = bench.score({});
+    const auto worst = [&](const Prefiltered& chain) {
+        const auto scores = bench.score(chain);
+        double most = -1.0;
+        for (std::size_t i = 0; i < scores.size(); ++i)
+            most = std::max(most, scores[i].rmse / plain[i].rmse - 1.0);
+        return most;
+    };
+    EXPECT_LT(worst(fitted), worst(bold) - 0.01);
+    options.surface = SurfaceClass::Paint;
+    Prefiltered paint = start;
+    EXPECT_TRUE(fit_chain(bench.levels(), options, paint, [] { FAIL() << "paint is fitted once"; }));
+}
+
+// Tiles of two glosses, which no single lobe of a texel looks like.
+TEST(ChainFitRule, TwoLobesShowTwoGlosses)
+{
+    std::vector<ScoredMaps> all = fresh_maps(96, 21);
+    const auto maps = std::find_if(all.begin(), all.end(), [](const ScoredMaps& m) { return m.name.starts_with("glosses"); });
+    ASSERT_NE(maps, all.end());
+    PictureOptions paint = few_pixels();
+    paint.cases.pop_back();  // metal
+    const PictureBench bench(maps->normal, maps->roughness, {}, paint);
+    PrefilterOptions options{.rule = "picture", .surface = SurfaceClass::Paint};
+    const auto plain = bench.score({});
+    const auto share = [&](const Prefiltered& chain) {
+        double sum = 0.0;
+        const auto scores = bench.score(chain);
+        for (std::size_t i = 0; i < scores.size(); ++i)
+            sum += scores[i].rmse / plain[i].rmse / static_cast<double>(scores.size());
+        return sum;
+    };
+    const Prefiltered one = prefilter_raw(maps->normal, maps->roughness, options);
+    options.lobes = 2;
+    const Prefiltered two = prefilter_raw(maps->normal, maps->roughness, options);
+    EXPECT_TRUE(one.second.share.empty());
+    EXPECT_LT(share(two), share(one) - 0.2);
+    for (std::size_t k = 1; k < two.second.share.size(); ++k) {
+        EXPECT_EQ(two.second.share[k].pixels.size(), one.roughness[k].pixels.size());
+        for (const float s : two.second.share[k].pixels) ASSERT_TRUE(s >= 0.0f && s <= 1.0f) << k;
+    }
+    options.threads = 3;
+    const Prefiltered again = prefilter_raw(maps->normal, maps->roughness, options);
+    for (std::size_t k = 1; k < two.second.share.size(); ++k) {
+        EXPECT_EQ(again.second.normal[k].pixels, two.second.normal[k].pixels) << k;
+        EXPECT_EQ(again.second.share[k].pixels, two.second.share[k].pixels) << k;
+    }
+    options.quick = true;
+    EXPECT_THROW(prefilter_raw(maps->normal, maps->roughness, options), Error);
 }
 
 TEST(ChainFitRule, FullQualityHoldsStillerThanQuick)

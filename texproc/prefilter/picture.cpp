@@ -160,6 +160,17 @@ std::vector<Level> PictureBench::State::levels_of(const Prefiltered& chain) cons
             for (std::size_t i = 0; i < own[k].texels.size(); ++i)
                 own[k].texels[i].stored = chain.roughness[k].pixels[i];
         }
+        if (k < chain.second.share.size() && !chain.second.share[k].empty()) {
+            for (const Image* of : {&chain.second.normal.at(k), &chain.second.roughness.at(k), &chain.second.share[k]})
+                check_level(*of, plain[k], k);
+            own[k].second.resize(own[k].texels.size());
+            for (std::size_t i = 0; i < own[k].second.size(); ++i) {
+                const float* n = &chain.second.normal[k].pixels[3 * i];
+                const float y = 2.0f * n[1] - 1.0f;
+                own[k].second[i] = {{2.0f * n[0] - 1.0f, input.green_down ? -y : y, 2.0f * n[2] - 1.0f},
+                                    chain.second.roughness[k].pixels[i], chain.second.share[k].pixels[i]};
+            }
+        }
     }
     return own;
 }
@@ -179,11 +190,20 @@ void PictureBench::State::shade_row(const std::vector<const Level*>& levels, con
     const PictureView& view = view_of(cases.front());
     for (int x = 0; x < view.width; ++x) {
         const FloorPixel pixel = plan.pixel(frame, x, y);
-        const Texel t = detail::filtered(levels, detail::taps_of(plain, pixel, view.taps));
+        const Taps taps = detail::taps_of(plain, pixel, view.taps);
+        const Texel t = detail::filtered(levels, taps);
         const float p = perceptual(t.stored, input);
+        const bool two = !levels[taps.fine]->second.empty() || !levels[taps.coarse]->second.empty();
+        if (!two) {
+            for (std::size_t i = 0; i < cases.size(); ++i)
+                to[i][static_cast<std::size_t>(x)] = shade(t, p, pixel.to_eye, lights[cases[i]]);
+            continue;
+        }
+        const detail::SecondTexel second = detail::second_filtered(levels, taps);
+        const float p2 = perceptual(second.stored, input);
         for (std::size_t i = 0; i < cases.size(); ++i)
             to[i][static_cast<std::size_t>(x)] =
-                shade(t, p, pixel.to_eye, lights[cases[i]]);
+                shade(t, p, second, p2, pixel.to_eye, lights[cases[i]]);
     }
 }
 

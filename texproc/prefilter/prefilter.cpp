@@ -111,6 +111,14 @@ std::vector<Prefiltered> filtered(const MapSurface& surface,
 
 Prefiltered filtered(const MapSurface& surface, const PrefilterOptions& options)
 {
+    if (options.lobes != 1 && options.lobes != 2) {
+        throw Error("prefilter: lobes must be 1 or 2, got " + std::to_string(options.lobes),
+                    "Ask for one or two lobes.");
+    }
+    if (options.lobes == 2 && (options.rule != "picture" || options.quick || !options.joint)) {
+        throw Error("prefilter: a second lobe is made by the rule picture in full quality, with normals",
+                    "Use that rule and write normals, or leave the second lobe out.");
+    }
     return std::move(filtered(surface, std::vector{options}, {}).front());
 }
 

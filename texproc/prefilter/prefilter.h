@@ -30,9 +30,20 @@ struct PrefilterOptions {
     bool anisotropic = false;   ///< overlap: elliptic lobes where they help
     bool quick = false;         ///< overlap, picture: less search
     SurfaceClass surface = SurfaceClass::Both;  ///< picture in full: what it is fitted to
+    /// Picture in full: 2 gives a texel of the levels from 1 on a second lobe of its own (SecondLobe).
+    int lobes = 1;
     int bits = 0;               ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats
 
     std::function<void(double)> progress{};  ///< called now and then with the share done, 0..1
+};
+
+/// A second lobe of each texel: what shines is (1 - share) of the lobe of normal and roughness and
+/// `share` of this one; what is diffuse has the mean of both normals, by share, made unit length
+/// (formulas/light/second_lobe.h). Level 0 is empty: there both lobes are the same.
+struct SecondLobe {
+    std::vector<Image> normal;     ///< as Prefiltered::normal
+    std::vector<Image> roughness;  ///< as Prefiltered::roughness
+    std::vector<Image> share;      ///< 1 channel, 0..1
 };
 
 /// Mip chains that agree: level k of normal and of roughness belong together.
@@ -50,6 +61,7 @@ struct Prefiltered {
     /// Only with the rule picture in full, 1 channel, 0..1: the same of metal, whose base colour is
     /// what it mirrors. Slopes that mirror the ground or shine elsewhere make it darker from afar.
     std::vector<Image> metal_share;
+    SecondLobe second{};  ///< only with lobes = 2
 };
 
 // A texel is made from its exact area of level 0 and never looks past an edge: maps that wrap,

@@ -256,7 +256,8 @@ void quantize(Prefiltered& chain, int bits)
         if (bits == 8 && !image.empty())
             image = to_image(to_raw(image, PixelType::U8, Rounding::Ordered), ColorSpace::Data);
     }
-    for (auto* images : {&chain.normal, &chain.roughness, &chain.anisotropy}) {
+    for (auto* images : {&chain.normal, &chain.roughness, &chain.anisotropy, &chain.second.normal,
+                         &chain.second.roughness, &chain.second.share}) {
         for (Image& image : *images) {
             for (float& v : image.pixels) {
                 v = std::floor(std::clamp(v, 0.0f, 1.0f) * top + 0.5f) / top;

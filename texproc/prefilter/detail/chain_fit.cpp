@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <vector>
 
@@ -18,17 +19,35 @@ namespace {
 
 constexpr std::size_t kMostTexels = 256 * 256;
 constexpr int kLeastSide = 8;
-// Of a level: pixels drawn for each texel, views at least, passes over them, steps of a pass.
-constexpr std::size_t kPixelsPerTexel = 30, kLeastViews = 120, kPasses = 2, kSteps = 250;
-constexpr int kPlaces = 256;       // of a view, each seen kFitFrames times
+// Of a level: pixels drawn for each texel, steps of a pass.
+constexpr std::size_t kPixelsPerTexel = 30, kSteps = 250;
+// How the pixels lie. Views that are one picture have one exposure, so what counts of its error is where
+// a highlight lies in it; wide, tall: how far they look past its middle, degrees.
+struct Layout {
+    std::size_t views;        // of a picture
+    int places;               // of a view, each seen kFitFrames times
+    std::size_t least_views;  // of a level
+    float wide = 0.0f, tall = 0.0f;
+};
+constexpr Layout kOneView{1, 256, 120}, kManyViews{16, 32, 3200, 17.0f, 6.0f};
+constexpr float kLowest = 7.0f;  // degrees down, where a picture looks
 constexpr int kSamples = 5;        // of the truth, along each side of a pixel
 constexpr std::size_t kSlots = 4;  // slopes are summed apart: the sums do not depend on threads
-constexpr float kFirstRate = 0.003f, kLastRate = 0.00003f;
+// Two fits in turn, the second from the first: bold, then careful, in which a picture that is worse
+// than that of plain mips counts more, in full where it is worse by kClearlyWorse.
+struct Stage {
+    std::size_t passes;
+    float first_rate, last_rate, worse;
+};
+constexpr Stage kBold{2, 0.003f, 0.00003f, 0.0f}, kCareful{2, 0.0015f, 0.00003f, 10.0f};
+constexpr float kClearlyWorse = 0.02f;
 constexpr float kFlicker =
     0.5f;  // what changes between two moments counts so much beside all of the error
 constexpr float kKeep = 0.9f, kKeepSquare = 0.99f;  // of Adam (Kingma & Ba 2015)
 constexpr float kNothing2 = 3e-6f;                  // a mean square of errors that nobody sees
 constexpr float kWorseMetal = 2.0f;
+constexpr float kApart = 0.25f;  // how far the roughness of two lobes lies from that of one at first, a share of what it can
+constexpr float kLeastLobe = 0.02f;  // the share of a lobe stays above: what has no part finds no way back
 constexpr float kDegree = 0.0174532925f, kTurn = 6.28318531f;
 
 class Dice {
@@ -136,37 +155,59 @@ struct Footprint {
     glm::vec2 across, along;  // the shorter and the longer axis
 };
 
+// Views of one picture, and the errors of plain mips in it: mean squares, and of what changes.
+struct Errors {
+    std::array<float, kFitLights> squares{}, changes{};
+};
+struct Picture {
+    std::vector<std::size_t> views;
+    Errors plain;
+};
+
 // Pixels whose finer level is the same.
 struct Pool {
     std::size_t fine = 0;
     std::vector<FitView> views;
-    std::vector<FitPixel> pixels;  // kPlaces times kFitFrames a view
+    std::vector<FitPixel> pixels;  // view by view
+    std::vector<Picture> pictures;
 };
-constexpr std::size_t kPixels = static_cast<std::size_t>(kPlaces) * kFitFrames;
-
 class ChainFit {
 public:
     ChainFit(const Levels& plain, const PrefilterOptions& options, const Prefiltered& chain);
     bool worth() const { return last_ >= first_ && seen_; }
-    void fit();
+    void fit(const Stage& stage);
     void store(Prefiltered& chain) const;
 
 private:
-    FitLevel level(std::size_t k, FitSlope* slopes) const
+    bool is_fitted(std::size_t k) const { return k >= first_ && k <= last_; }
+    bool two() const { return options_.lobes == 2; }
+    FitLevel level(std::size_t k, FitSlope* slopes, FitLobe* second_slopes) const
     {
-        return {plain_[k].width, plain_[k].height, texels_[k].data(),
-                k < first_ || k > last_ ? nullptr : slopes};
+        return {plain_[k].width,
+                plain_[k].height,
+                texels_[k].data(),
+                is_fitted(k) ? slopes : nullptr,
+                two() ? second_[k].data() : nullptr,
+                is_fitted(k) ? second_slopes : nullptr};
     }
+    void start_two(std::size_t k);
+    void move_second(std::size_t k, std::size_t i, std::size_t slot_offset, const auto& moved);
     void draw(Pool& pool, std::size_t number);
-    bool show(const Footprint& footprint, std::size_t fine, FitView& view, FitPixel* pixels,
-              Dice& dice) const;
+    void show(const Footprint& footprint, FitView& view, FitPixel* pixels, Dice& dice,
+              float* light) const;
+    bool expose(Pool& pool, Picture& picture, const std::vector<float>& light) const;
+    Errors errors(const Pool& pool, const Picture& picture, bool plain) const;
+    void weigh(Pool& pool, const Picture& picture, float worse) const;
     void step(const Pool& pool, const std::vector<std::size_t>& views, float rate);
     void move(std::size_t k, std::size_t slot_offset, std::size_t pixels, float rate);
 
     const Levels& plain_;
     const PrefilterOptions& options_;
+    const Layout layout_;
+    const std::size_t pixels_;  // of a view
     FitMeaning meaning_;
     std::vector<std::vector<FitTexel>> texels_, plain_texels_;
+    std::vector<std::vector<FitLobe>> second_;  // with two lobes
     std::size_t first_ = 1, last_ = 0;  // levels that are fitted
     std::vector<Pool> pools_;
     bool seen_ = false;  // plain mips are off somewhere
@@ -174,19 +215,26 @@ private:
     // Of Adam: means of slopes and of their squares, and steps, of a level.
     std::vector<std::vector<FitSlope>> mean_;
     std::vector<std::vector<FitSlope>> square_;
+    std::vector<std::vector<FitLobe>> second_mean_, second_square_;
     std::vector<int> steps_;
     std::array<std::vector<FitSlope>, kSlots> slopes_;
+    std::array<std::vector<FitLobe>, kSlots> second_slopes_;
 };
 
 ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const Prefiltered& chain)
     : plain_(plain),
       options_(options),
+      layout_(options.surface == SurfaceClass::Metal ? kManyViews : kOneView),
+      pixels_(static_cast<std::size_t>(layout_.places) * kFitFrames),
       meaning_{options.smoothness, options.alpha},
       texels_(plain.size()),
       plain_texels_(plain.size()),
+      second_(plain.size()),
       colors_metal_(!chain.metal_share.empty()),
       mean_(plain.size()),
       square_(plain.size()),
+      second_mean_(plain.size()),
+      second_square_(plain.size()),
       steps_(plain.size(), 0)
 {
     const auto count = [&](std::size_t k) {
@@ -203,7 +251,7 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
         for (std::size_t i = 0; i < texels_[k].size(); ++i) {
             const Texel t = plain[k].at(i);
             FitTexel& to = texels_[k][i];
-            to = {{t.n.x, t.n.y, t.n.z}, t.stored, 1.0f, 1.0f, {}};
+            to = {{t.n.x, t.n.y, t.n.z}, t.stored, 1.0f, 1.0f, 0.5f, 0.0f};
             plain_texels_[k][i] = to;
             if (k == 0) continue;
             to.stored = chain.roughness[k].pixels[i];
@@ -212,9 +260,28 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
         }
         mean_[k].resize(k ? count(k) : 0);
         square_[k].resize(k ? count(k) : 0);
+        if (two()) start_two(k);
     }
     pools_.resize(last_ - first_ + 2);
     for (std::size_t i = 0; i < pools_.size(); ++i) draw(pools_[i], i);
+}
+
+// Half of the light each, one lobe narrower and one wider: from two that are the same no slope would lead
+// them apart. Levels that are not fitted keep two that are the same.
+void ChainFit::start_two(std::size_t k)
+{
+    std::vector<FitTexel>& texels = texels_[k];
+    second_[k].resize(texels.size());
+    second_mean_[k].resize(mean_[k].size());
+    second_square_[k].resize(mean_[k].size());
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        FitTexel& t = texels[i];
+        second_[k][i] = {{t.n[0], t.n[1], t.n[2]}, t.stored};
+        if (!is_fitted(k)) continue;
+        const float p = perceptual(t.stored, options_);
+        t.stored = stored_value(p - kApart * p, options_);
+        second_[k][i].stored = stored_value(p + kApart * std::min(p, 1.0f - p), options_);
+    }
 }
 
 void ChainFit::draw(Pool& pool, std::size_t number)
@@ -225,45 +292,63 @@ void ChainFit::draw(Pool& pool, std::size_t number)
     const std::size_t texels =
         static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     const std::size_t share = pool.fine < first_ ? 2 : 1;
-    const std::size_t views =
-        std::max<std::size_t>(texels * kPixelsPerTexel / (share * kPixels), kLeastViews);
-    pool.views.resize(views);
-    pool.pixels.resize(views * kPixels);
-    std::vector<char> off(views, 0);
-    parallel_for(views, options_.threads, [&](std::size_t v) {
-        Dice dice((static_cast<std::uint64_t>(number) << 32) + v);
-        FitView& view = pool.views[v];
-        const float azimuth = dice(0.0f, kTurn), down = kDegree * dice(9.0f, 60.0f);
-        const glm::vec2 ahead(portable_cos(azimuth), portable_sin(azimuth));
-        const glm::vec3 eye(-ahead * portable_cos(down), portable_sin(down));
-        draw_lights(dice, options_.surface, azimuth, eye, view.lights);
-        const float longer = 1.0f / portable_sin(down);  // than across
+    const std::size_t enough =
+        std::max(texels * kPixelsPerTexel / (share * pixels_), layout_.least_views);
+    pool.pictures.resize(enough / layout_.views);
+    pool.views.resize(pool.pictures.size() * layout_.views);
+    pool.pixels.resize(pool.views.size() * pixels_);
+    std::vector<char> off(pool.pictures.size(), 0);
+    parallel_for(pool.pictures.size(), options_.threads, [&](std::size_t which) {
+        Picture& picture = pool.pictures[which];
+        Dice dice((static_cast<std::uint64_t>(number) << 32) + which);
+        const float middle = dice(0.0f, kTurn), middle_down = dice(9.0f, 60.0f);
+        const Dice of_lights = dice;  // the same for all its views
+        FitLights past{};
+        draw_lights(dice, options_.surface, middle, {}, past);
         constexpr float kOneTap = 0.15f;
-        view.taps = dice(0.0f, 1.0f) < kOneTap ? 1 : static_cast<int>(std::ceil(longer));
-        view.share = dice(0.0f, 1.0f);
-        const float across =
-            std::ldexp(portable_exp(view.share * 0.693147181f), static_cast<int>(pool.fine)) *
-            static_cast<float>(view.taps) / longer;
-        const Footprint footprint{glm::vec2(-ahead.y, ahead.x) * across, ahead * (across * longer)};
-        FitPixel* pixels = &pool.pixels[v * kPixels];
-        off[v] = show(footprint, pool.fine, view, pixels, dice);
+        const bool one_tap = dice(0.0f, 1.0f) < kOneTap;
+        std::vector<float> light(layout_.views * pixels_ * kFitLights);
+        for (std::size_t i = 0; i < layout_.views; ++i) {
+            // Far apart: a step of the fit takes views that follow each other.
+            const std::size_t v = which + i * pool.pictures.size();
+            picture.views.push_back(v);
+            FitView& view = pool.views[v];
+            float azimuth = middle, down = middle_down;
+            if (layout_.views > 1) {
+                azimuth += kDegree * dice(-layout_.wide, layout_.wide);
+                down = std::max(down + dice(-layout_.tall, layout_.tall), kLowest);
+            }
+            down *= kDegree;
+            const glm::vec2 ahead(portable_cos(azimuth), portable_sin(azimuth));
+            const glm::vec3 eye(-ahead * portable_cos(down), portable_sin(down));
+            Dice lights = of_lights;
+            draw_lights(lights, options_.surface, middle, eye, view.lights);
+            const float longer = 1.0f / portable_sin(down);  // than across
+            view.taps = one_tap ? 1 : static_cast<int>(std::ceil(longer));
+            view.share = dice(0.0f, 1.0f);
+            const float across =
+                std::ldexp(portable_exp(view.share * 0.693147181f), static_cast<int>(pool.fine)) *
+                static_cast<float>(view.taps) / longer;
+            show({glm::vec2(-ahead.y, ahead.x) * across, ahead * (across * longer)}, view,
+                 &pool.pixels[v * pixels_], dice, &light[i * pixels_ * kFitLights]);
+        }
+        off[which] = expose(pool, picture, light);
+        weigh(pool, picture, 0.0f);
     });
     seen_ |= std::find(off.begin(), off.end(), 1) != off.end();
 }
 
-// Truth of the pixels of a view, its exposures and weights; whether plain mips are off.
-bool ChainFit::show(const Footprint& footprint, std::size_t fine, FitView& view, FitPixel* pixels,
-                    Dice& dice) const
+// Truth of the pixels of a view.
+void ChainFit::show(const Footprint& footprint, FitView& view, FitPixel* pixels, Dice& dice,
+                    float* light) const
 {
-    const ChainFitKernel& kernel = chain_fit_kernel();
     const Level& base = plain_.front();
     const glm::vec2 size(base.width, base.height);
     const glm::vec2 tap = footprint.along / (size * static_cast<float>(view.taps));
     view.step_u = tap.x, view.step_v = tap.y;
     constexpr int kCount = kSamples * kSamples;
     std::array<float, kCount> nx, ny, nz, p;
-    std::vector<float> light(kPixels * kFitLights);
-    for (int place = 0; place < kPlaces; ++place) {
+    for (int place = 0; place < layout_.places; ++place) {
         glm::vec2 at(dice(0.0f, size.x), dice(0.0f, size.y));
         const float angle = dice(0.0f, kTurn), far = dice(0.3f, 1.0f);
         const glm::vec2 move =
@@ -283,36 +368,49 @@ bool ChainFit::show(const Footprint& footprint, std::size_t fine, FitView& view,
                 nx[k] = t.n.x, ny[k] = t.n.y, nz[k] = t.n.z;
                 p[k] = perceptual(t.stored, options_);
             }
-            kernel.mean_light(view.lights, nx.data(), ny.data(), nz.data(), p.data(), kCount,
-                              &light[i * kFitLights]);
+            chain_fit_kernel().mean_light(view.lights, nx.data(), ny.data(), nz.data(), p.data(),
+                                          kCount, light + i * kFitLights);
         }
     }
-    std::vector<float> sorted(kPixels);
+}
+
+// Exposures of a picture, and what it shows then; whether plain mips are off.
+bool ChainFit::expose(Pool& pool, Picture& picture, const std::vector<float>& light) const
+{
+    std::vector<float> sorted(light.size() / kFitLights);
     for (std::size_t l = 0; l < kFitLights; ++l) {
-        for (std::size_t i = 0; i < kPixels; ++i) sorted[i] = light[i * kFitLights + l];
+        for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = light[i * kFitLights + l];
         std::sort(sorted.begin(), sorted.end());
-        const float middle = std::max(sorted[kPixels / 2], 1e-6f);
-        const float bright = std::max(sorted[kPixels * 97 / 100], 1e-6f);
-        view.exposure[l] = std::min(0.18f / middle, 0.9f / bright);
-        for (std::size_t i = 0; i < kPixels; ++i) {
-            const float shown =
-                std::sqrt(std::min(light[i * kFitLights + l] * view.exposure[l], 1.0f));
-            pixels[i].shown[l] = static_cast<std::uint16_t>(shown * 65535.0f + 0.5f);
+        const float middle = std::max(sorted[sorted.size() / 2], 1e-6f);
+        const float bright = std::max(sorted[sorted.size() * 97 / 100], 1e-6f);
+        const float exposure = std::min(0.18f / middle, 0.9f / bright);
+        for (std::size_t i = 0; i < sorted.size(); ++i) {
+            const std::size_t v = picture.views[i / pixels_];
+            pool.views[v].exposure[l] = exposure;
+            const float shown = std::sqrt(std::min(light[i * kFitLights + l] * exposure, 1.0f));
+            pool.pixels[v * pixels_ + i % pixels_].shown[l] =
+                static_cast<std::uint16_t>(shown * 65535.0f + 0.5f);
         }
     }
-    // Errors count relative to those of plain mips: the slope of their ratio, not of its square, so
-    // that a light in which little is left to gain is not given up for one in which much is lost.
-    struct Sums {
-        float squares = 0.0f, changes = 0.0f;
+    picture.plain = errors(pool, picture, true);
+    return std::any_of(picture.plain.squares.begin(), picture.plain.squares.end(),
+                       [](float squares) { return squares > 2.0f * kNothing2; });
+}
+
+Errors ChainFit::errors(const Pool& pool, const Picture& picture, bool plain) const
+{
+    const auto at = [&](std::size_t k) {
+        return plain ? FitLevel{plain_[k].width, plain_[k].height, plain_texels_[k].data(), nullptr}
+                     : level(k, nullptr, nullptr);
     };
-    const auto sums_of = [&](const std::vector<std::vector<FitTexel>>& of) {
-        const auto at = [&](std::size_t k) {
-            return FitLevel{plain_[k].width, plain_[k].height, of[k].data(), nullptr};
-        };
-        kernel.seen(view, meaning_, at(fine), at(std::min(fine + 1, plain_.size() - 1)), pixels,
-                    static_cast<int>(kPixels), light.data());
-        std::array<Sums, kFitLights> sums{};
-        for (std::size_t i = 0; i < kPixels; i += kFitFrames) {
+    const FitLevel fine = at(pool.fine), coarse = at(std::min(pool.fine + 1, plain_.size() - 1));
+    std::vector<float> light(pixels_ * kFitLights);
+    Errors sums;
+    for (const std::size_t v : picture.views) {
+        const FitPixel* pixels = &pool.pixels[v * pixels_];
+        chain_fit_kernel().seen(pool.views[v], meaning_, fine, coarse, pixels,
+                                static_cast<int>(pixels_), light.data());
+        for (std::size_t i = 0; i < pixels_; i += kFitFrames) {
             for (std::size_t l = 0; l < kFitLights; ++l) {
                 float sum = 0.0f, squares = 0.0f;
                 for (std::size_t f = i; f < i + kFitFrames; ++f) {
@@ -321,28 +419,37 @@ bool ChainFit::show(const Footprint& footprint, std::size_t fine, FitView& view,
                     sum += error;
                     squares += error * error;
                 }
-                sums[l].squares += squares;
-                sums[l].changes += std::max(squares - sum * sum * (1.0f / kFitFrames), 0.0f);
+                sums.squares[l] += squares;
+                sums.changes[l] += std::max(squares - sum * sum * (1.0f / kFitFrames), 0.0f);
             }
         }
-        for (Sums& sum : sums) {
-            sum.squares = sum.squares / static_cast<float>(kPixels) + kNothing2;
-            sum.changes = sum.changes / static_cast<float>(kPixels) + kNothing2;
-        }
-        return sums;
-    };
-    const std::array<Sums, kFitLights> plain = sums_of(plain_texels_), now = sums_of(texels_);
-    bool off = false;
-    for (std::size_t l = 0; l < kFitLights; ++l) {
-        view.weight[l] = 1.0f / std::sqrt(plain[l].squares * now[l].squares);
-        // One lobe cannot be wide enough ahead and narrow enough behind: what step 2 made worse on metal
-        // comes first.
-        if (view.lights.f0_metal[l] > 0.0f && now[l].squares > plain[l].squares)
-            view.weight[l] *= kWorseMetal;
-        view.flicker[l] = kFlicker / std::sqrt(plain[l].changes * now[l].changes);
-        off |= plain[l].squares > 2.0f * kNothing2;
     }
-    return off;
+    const float count = static_cast<float>(pixels_ * picture.views.size());
+    for (std::array<float, kFitLights>* all : {&sums.squares, &sums.changes})
+        for (float& sum : *all) sum = sum / count + kNothing2;
+    return sums;
+}
+
+// Errors count relative to those of plain mips: the slope of their ratio, not of its square, so
+// that a light in which little is left to gain is not given up for one in which much is lost.
+// worse: how much more a picture counts that is worse than that of plain mips.
+void ChainFit::weigh(Pool& pool, const Picture& picture, float worse) const
+{
+    const Errors now = errors(pool, picture, false);
+    for (std::size_t l = 0; l < kFitLights; ++l) {
+        const float plain = picture.plain.squares[l], ratio = std::sqrt(now.squares[l] / plain);
+        float weight = 1.0f / std::sqrt(plain * now.squares[l]);
+        weight *= 1.0f + worse * std::clamp((ratio - 1.0f) / kClearlyWorse, 0.0f, 1.0f);
+        const float flicker = kFlicker / std::sqrt(picture.plain.changes[l] * now.changes[l]);
+        for (const std::size_t v : picture.views) {
+            FitView& view = pool.views[v];
+            // One lobe cannot be wide enough ahead and narrow enough behind: what step 2 made worse
+            // on metal comes first.
+            const bool first = view.lights.f0_metal[l] > 0.0f && ratio > 1.0f;
+            view.weight[l] = first && !(worse > 0.0f) ? kWorseMetal * weight : weight;
+            view.flicker[l] = flicker;
+        }
+    }
 }
 
 void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, float rate)
@@ -358,11 +465,11 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
         (texels_[k].size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
             const std::size_t end = std::min((block + 1) * kBlock, texels_[k].size());
             for (std::size_t i = block * kBlock; i < end; ++i) {
-                float slope[5] = {};
+                float slope[6] = {};
                 for (std::vector<FitSlope>& slot : slopes_) {
                     FitSlope& s = slot[slot_offset + i];
                     for (int c = 0; c < 3; ++c) slope[c] += s.n[c];
-                    slope[3] += s.stored, slope[4] += s.metal;
+                    slope[3] += s.stored, slope[4] += s.metal, slope[5] += s.of_second;
                     s = {};
                 }
                 FitSlope &mean = mean_[k][i], &square = square_[k][i];
@@ -386,8 +493,32 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
                 }
                 const float length = std::sqrt(std::max(square_length, 1e-12f));
                 for (float& n_c : t.n) n_c /= length;
+                if (!two()) continue;
+                t.of_second = std::clamp(moved(t.of_second, slope[5], mean.of_second, square.of_second),
+                                         kLeastLobe, 1.0f - kLeastLobe);
+                move_second(k, i, slot_offset, moved);
             }
         });
+}
+
+void ChainFit::move_second(std::size_t k, std::size_t i, std::size_t slot_offset, const auto& moved)
+{
+    FitLobe slope{};
+    for (std::vector<FitLobe>& slot : second_slopes_) {
+        FitLobe& s = slot[slot_offset + i];
+        for (int c = 0; c < 3; ++c) slope.n[c] += s.n[c];
+        slope.stored += s.stored;
+        s = {};
+    }
+    FitLobe &t = second_[k][i], &mean = second_mean_[k][i], &square = second_square_[k][i];
+    t.stored = std::clamp(moved(t.stored, slope.stored, mean.stored, square.stored), 0.0f, 1.0f);
+    float square_length = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        t.n[c] = moved(t.n[c], slope.n[c], mean.n[c], square.n[c]);
+        square_length += t.n[c] * t.n[c];
+    }
+    const float length = std::sqrt(std::max(square_length, 1e-12f));
+    for (float& n_c : t.n) n_c /= length;
 }
 
 void ChainFit::step(const Pool& pool, const std::vector<std::size_t>& views, float rate)
@@ -396,21 +527,24 @@ void ChainFit::step(const Pool& pool, const std::vector<std::size_t>& views, flo
     const std::size_t offset = pool.fine < first_ ? 0 : texels_[pool.fine].size();
     parallel_for(std::min(kSlots, views.size()), options_.threads, [&](std::size_t slot) {
         FitSlope* const to = slopes_[slot].data();
+        FitLobe* const second = two() ? second_slopes_[slot].data() : nullptr;
         for (std::size_t i = slot; i < views.size(); i += kSlots)
             chain_fit_kernel().add_slopes(
-                pool.views[views[i]], meaning_, level(pool.fine, to), level(coarse, to + offset),
-                &pool.pixels[views[i] * kPixels], static_cast<int>(kPixels));
+                pool.views[views[i]], meaning_, level(pool.fine, to, second),
+                level(coarse, to + offset, second ? second + offset : nullptr),
+                &pool.pixels[views[i] * pixels_], static_cast<int>(pixels_));
     });
-    move(pool.fine, 0, views.size() * kPixels, rate);
-    if (coarse != pool.fine) move(coarse, offset, views.size() * kPixels, rate);
+    move(pool.fine, 0, views.size() * pixels_, rate);
+    if (coarse != pool.fine) move(coarse, offset, views.size() * pixels_, rate);
 }
 
-void ChainFit::fit()
+void ChainFit::fit(const Stage& stage)
 {
     std::size_t most = 0;
     for (std::size_t k = first_; k <= last_; ++k)
         most = std::max(most, texels_[k].size() + (k < last_ ? texels_[k + 1].size() : 0));
     for (std::vector<FitSlope>& slot : slopes_) slot.assign(most, {});
+    for (std::vector<FitLobe>& slot : second_slopes_) slot.assign(two() ? most : 0, {});
     // All steps of a pass in one order: levels by turns.
     struct Step {
         std::size_t pool, first, count;
@@ -427,30 +561,42 @@ void ChainFit::fit()
         for (std::size_t i = all.size(); i-- > 1;) std::swap(all[i], all[dice.whole() % (i + 1)]);
     };
     std::vector<std::size_t> views;
-    const std::size_t total = steps.size() * kPasses;
-    for (std::size_t pass = 0, done = 0; pass < kPasses; ++pass) {
+    const std::size_t total = steps.size() * stage.passes;
+    for (std::size_t pass = 0, done = 0; pass < stage.passes; ++pass) {
         shuffle(steps);
+        for (Pool& pool : pools_) {
+            if (!(stage.worse > 0.0f)) break;  // weighed as it was drawn
+            parallel_for(pool.pictures.size(), options_.threads,
+                         [&](std::size_t i) { weigh(pool, pool.pictures[i], stage.worse); });
+        }
         for (const Step& s : steps) {
             views.resize(s.count);
             for (std::size_t i = 0; i < s.count; ++i) views[i] = s.first + i;
             const float share = static_cast<float>(done++) / static_cast<float>(total);
-            step(pools_[s.pool], views, kFirstRate + (kLastRate - kFirstRate) * share);
+            step(pools_[s.pool], views,
+                 stage.first_rate + (stage.last_rate - stage.first_rate) * share);
         }
     }
 }
 
 void ChainFit::store(Prefiltered& chain) const
 {
+    const auto store_normal = [&](const float* n, float* to) {
+        to[0] = 0.5f + 0.5f * n[0];
+        to[1] = 0.5f + 0.5f * (options_.green_down ? -n[1] : n[1]);
+        to[2] = 0.5f + 0.5f * n[2];
+    };
     for (std::size_t k = first_; k <= last_; ++k) {
         for (std::size_t i = 0; i < texels_[k].size(); ++i) {
             const FitTexel& t = texels_[k][i];
             chain.roughness[k].pixels[i] = t.stored;
             if (!options_.joint) continue;
             if (colors_metal_) chain.metal_share[k].pixels[i] = t.metal;
-            float* n = &chain.normal[k].pixels[3 * i];
-            n[0] = 0.5f + 0.5f * t.n[0];
-            n[1] = 0.5f + 0.5f * (options_.green_down ? -t.n[1] : t.n[1]);
-            n[2] = 0.5f + 0.5f * t.n[2];
+            store_normal(t.n, &chain.normal[k].pixels[3 * i]);
+            if (!two()) continue;
+            store_normal(second_[k][i].n, &chain.second.normal[k].pixels[3 * i]);
+            chain.second.roughness[k].pixels[i] = second_[k][i].stored;
+            chain.second.share[k].pixels[i] = t.of_second;
         }
     }
 }
@@ -463,12 +609,18 @@ bool is_fitted(int width, int height)
            std::min(width, height) >= kLeastSide;
 }
 
-void fit_chain(const Levels& plain, const PrefilterOptions& options, Prefiltered& chain)
+bool fit_chain(const Levels& plain, const PrefilterOptions& options, Prefiltered& chain,
+               const std::function<void()>& bold)
 {
     ChainFit fit(plain, options, chain);
-    if (!fit.worth()) return;
-    fit.fit();
+    if (!fit.worth()) return false;
+    fit.fit(kBold);
     fit.store(chain);
+    if (options.surface != SurfaceClass::Metal) return true;
+    if (bold) bold();
+    fit.fit(kCareful);
+    fit.store(chain);
+    return true;
 }
 
 }  // namespace petrichor::texproc::detail

@@ -30,17 +30,23 @@ struct FitMeaning {
 };
 
 /// A level while it is fitted: normal, roughness as stored, shares of the base colour of paint and of
-/// metal; and how the error changes with all but that of paint.
+/// metal, share of the second lobe; and how the error changes with all but that of paint.
 struct FitTexel {
-    float n[3], stored, share, metal, none[2];
+    float n[3], stored, share, metal, of_second, none;
 };
 struct FitSlope {
-    float n[3], stored, metal, none[3];
+    float n[3], stored, metal, of_second, none[2];
+};
+/// A second lobe, and how the error changes with it.
+struct FitLobe {
+    float n[3], stored;
 };
 struct FitLevel {
     int width, height;
     const FitTexel* texels;
-    FitSlope* slopes;  ///< null: not fitted
+    FitSlope* slopes;              ///< null: not fitted
+    const FitLobe* second = nullptr;  ///< null, as on the other level: one lobe
+    FitLobe* second_slopes = nullptr;
 };
 
 /// A way in which pixels see the map: one eye, one size of a pixel.

@@ -27,6 +27,12 @@ struct Texel {
     float metal = 1.0f;    // and of metal
 };
 
+// Of a texel that has two lobes.
+struct SecondTexel {
+    glm::vec3 n{0.0f, 0.0f, 1.0f};
+    float stored = 0.0f, share = 0.5f;
+};
+
 // A texel of level 0, of which there are many.
 struct SmallTexel {
     std::int16_t n[3];
@@ -67,6 +73,7 @@ struct Level {
     int width = 0, height = 0;
     std::vector<Texel> texels;
     std::vector<SmallTexel> small{};  // instead of texels
+    std::vector<SecondTexel> second{};  // none: both lobes are those of the texels
 
     Texel at(std::size_t i) const
     {
@@ -75,6 +82,12 @@ struct Level {
         constexpr float kUnit = 1.0f / 32767.0f;
         return {glm::vec3(t.n[0], t.n[1], t.n[2]) * kUnit,
                 static_cast<float>(t.stored) * (1.0f / 65535.0f), 1.0f};
+    }
+    SecondTexel second_at(std::size_t i) const
+    {
+        if (!second.empty()) return second[i];
+        const Texel t = at(i);
+        return {t.n, t.stored, 0.5f};
     }
     Texel nearest(double u, double v) const
     {
@@ -94,6 +107,15 @@ struct Level {
             sum.stored += t.stored * w;
             sum.diffuse += t.diffuse * w;
             sum.metal += t.metal * w;
+        });
+    }
+    void add_to(SecondTexel& sum, double u, double v, float weight) const
+    {
+        bilinear(width, height, u, v, weight, [&](std::size_t i, float w) {
+            const SecondTexel t = second_at(i);
+            sum.n += t.n * w;
+            sum.stored += t.stored * w;
+            sum.share += t.share * w;
         });
     }
 };
@@ -119,13 +141,18 @@ inline float sky_radiance(float up, float width)
     return 0.12f + t * t * (3.0f - 2.0f * t) * (0.88f - 0.5f * std::max(up, 0.0f));
 }
 
+// What of the light is seen.
+enum class Seen { All, Gloss, Diffuse };
+
 // Radiance towards the eye. Paint: Lambert below the highlight; metal: the highlight alone. The
 // share is of the base colour: what is diffuse of paint, what metal mirrors.
-inline float shade(const glm::vec3& n, float p, float share, const glm::vec3& to_eye, const FloorLight& light)
+template <Seen kSeen = Seen::All>
+float shade(const glm::vec3& n, float p, float share, const glm::vec3& to_eye, const FloorLight& light)
 {
+    constexpr float kGloss = kSeen == Seen::Diffuse ? 0.0f : 1.0f;
     const float own = std::max(p * p, kNarrowestAlpha);
     const float f0 = light.metal ? kMetalF0 * share : kPaintF0;
-    const float albedo = light.metal ? 0.0f : kPaintAlbedo * share;
+    const float albedo = light.metal || kSeen == Seen::Gloss ? 0.0f : kPaintAlbedo * share;
     float seen = 0.0f;
     if (light.sky > 0.0f) {
         const float nv = std::clamp(std::abs(glm::dot(n, to_eye)), 1e-4f, 1.0f);
@@ -134,7 +161,7 @@ inline float shade(const glm::vec3& n, float p, float share, const glm::vec3& to
         const float rim = std::pow(1.0f - nv, 5.0f);
         const float fresnel = f0 + (std::max(1.0f - p, f0) - f0) * rim;
         const float diffuse = 0.12f + 0.5f * (1.0f + n.z) * 0.45f;
-        seen = light.sky * (fresnel * sky_radiance(mirror.z, own) + albedo * (1.0f - f0) * diffuse);
+        seen = light.sky * (kGloss * fresnel * sky_radiance(mirror.z, own) + albedo * (1.0f - f0) * diffuse);
     }
     const float alpha = std::sqrt(own * own + light.alpha2);
     const float nl = glm::dot(n, light.to_light);
@@ -146,13 +173,25 @@ inline float shade(const glm::vec3& n, float p, float share, const glm::vec3& to
     const float m = 1.0f - lh, m2 = m * m;
     const float fresnel = f0 + (1.0f - f0) * (m2 * m2 * m);
     return seen + light.sun * nl *
-                      (fresnel * shared::ggx_distribution(nh, alpha) * shared::ggx_visibility(nl, nv, alpha) +
+                      (kGloss * fresnel * shared::ggx_distribution(nh, alpha) * shared::ggx_visibility(nl, nv, alpha) +
                        (1.0f - fresnel) * albedo * (1.0f / shared::kPi));
 }
 
 inline float shade(const Texel& t, float p, const glm::vec3& to_eye, const FloorLight& light)
 {
     return shade(t.n, p, light.metal ? t.metal : t.diffuse, to_eye, light);
+}
+
+// Of two lobes; p, p2: their perceptual roughness.
+inline float shade(const Texel& t, float p, const SecondTexel& second, float p2, const glm::vec3& to_eye,
+                   const FloorLight& light)
+{
+    const float share = light.metal ? t.metal : t.diffuse;
+    const float gloss = (1.0f - second.share) * shade<Seen::Gloss>(t.n, p, share, to_eye, light) +
+                        second.share * shade<Seen::Gloss>(second.n, p2, share, to_eye, light);
+    if (light.metal) return gloss;
+    const glm::vec3 mean = glm::normalize(t.n + second.share * (second.n - t.n));
+    return gloss + shade<Seen::Diffuse>(mean, p, share, to_eye, light);
 }
 
 inline float perceptual(float stored, const PrefilterOptions& input)
@@ -179,7 +218,8 @@ struct Taps {
     float share = 0.0f;  // of the coarse level
 
     // Of one of the two levels, with its share.
-    void add_to(Texel& sum, const Level& level, float of_level) const
+    template <class Sum>
+    void add_to(Sum& sum, const Level& level, float of_level) const
     {
         for (int i = 0; i < count; ++i)
             level.add_to(sum, u + i * step_u, v + i * step_v, of_level / static_cast<float>(count));
@@ -192,6 +232,16 @@ Taps taps_of(const Levels& levels, const FloorPixel& pixel, int most_taps);
 inline Texel filtered(const std::vector<const Level*>& levels, const Taps& taps)
 {
     Texel sum{glm::vec3(0.0f), 0.0f, 0.0f, 0.0f};
+    taps.add_to(sum, *levels[taps.fine], 1.0f - taps.share);
+    if (taps.share > 0.0f) taps.add_to(sum, *levels[taps.coarse], taps.share);
+    const float length = glm::length(sum.n);
+    sum.n = length > 0.0f ? sum.n / length : glm::vec3(0.0f, 0.0f, 1.0f);
+    return sum;
+}
+
+inline SecondTexel second_filtered(const std::vector<const Level*>& levels, const Taps& taps)
+{
+    SecondTexel sum{glm::vec3(0.0f), 0.0f, 0.0f};
     taps.add_to(sum, *levels[taps.fine], 1.0f - taps.share);
     if (taps.share > 0.0f) taps.add_to(sum, *levels[taps.coarse], taps.share);
     const float length = glm::length(sum.n);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "texproc/prefilter/detail/chain_fit.h"
@@ -16,7 +17,8 @@ namespace {
 // Shares of what was fitted, and of the darkening of the base colour.
 constexpr float kShares[] = {1.3f, 1.0f, 0.75f, 0.5f, 0.25f, 0.0f};
 constexpr float kDark[] = {1.0f, 0.5f, 0.0f};
-constexpr float kFitted[] = {1.0f, 0.75f, 0.5f, 0.25f}, kFittedLevel[] = {1.0f, 0.5f, 0.0f};
+constexpr float kFitted[] = {1.0f, 0.75f, 0.5f, 0.25f, 0.12f};
+constexpr float kFittedLevel[] = {1.0f, 0.75f, 0.5f, 0.25f, 0.0f}, kFewer[] = {1.0f, 0.5f, 0.0f};
 constexpr double kFlickerWeight = 0.3;
 // What a case costs that is worse than plain mips, beside its part of the mean. Fewer would let one
 // picture pay for the gain of another.
@@ -74,37 +76,48 @@ void settle_fit(const PictureBench& bench, const std::vector<PictureScore>& plai
             chain.metal_share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,
                                          ColorSpace::Data, 1.0f);
     }
-    const bool metal = !chain.metal_share.empty();
-    // Of each level the first goes with what was fitted, the second with the colour of metal.
+    if (options.lobes == 2) {
+        chain.second = {chain.normal, chain.roughness, std::vector<Image>(levels)};
+        chain.second.normal[0] = chain.second.roughness[0] = Image();
+        for (std::size_t k = 1; k < levels; ++k)
+            chain.second.share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,
+                                          ColorSpace::Data, 0.5f);
+    }
+    const bool colors_metal = !chain.metal_share.empty();
+    // Of each level: which of the fits, how much of it, and how much of its colour of metal.
     struct Share {
+        std::size_t fit;
         float fitted, metal;
         bool operator==(const Share&) const = default;
     };
     using Shares = std::vector<Share>;
-    constexpr std::size_t kParts = 3;
-    const std::array<std::vector<Image>*, kParts> parts{&chain.roughness, &chain.normal,
-                                                        &chain.metal_share};
-    std::vector<std::array<Image, kParts>> before(levels), after(levels);
-    const auto keep = [&](std::size_t k) {
-        std::array<Image, kParts> kept;
-        for (std::size_t i = 0; i < kParts; ++i)
-            if (k < parts[i]->size()) kept[i] = (*parts[i])[k];
-        return kept;
+    constexpr std::size_t kParts = 6, kMetal = 2;
+    const std::array<std::vector<Image>*, kParts> parts{
+        &chain.roughness,     &chain.normal,           &chain.metal_share,
+        &chain.second.normal, &chain.second.roughness, &chain.second.share};
+    using Kept = std::vector<std::array<Image, kParts>>;
+    const auto kept = [&] {
+        Kept all(levels);
+        for (std::size_t k = 1; k < levels; ++k) {
+            if (!is_fitted(chain.roughness[k].width, chain.roughness[k].height)) continue;
+            for (std::size_t i = 0; i < kParts; ++i)
+                if (k < parts[i]->size()) all[k][i] = (*parts[i])[k];
+        }
+        return all;
     };
-    for (std::size_t k = 1; k < levels; ++k)
-        if (is_fitted(chain.roughness[k].width, chain.roughness[k].height)) before[k] = keep(k);
-    Shares best(levels, {0.0f, 0.0f}), now(levels, {1.0f, 1.0f});
+    const Kept before = kept();
     double least = cost_of(bench.score(chain), plain, false);
-    fit_chain(bench.levels(), options, chain);
-    for (std::size_t k = 1; k < levels; ++k)
-        if (!before[k][0].empty()) after[k] = keep(k);
+    std::vector<Kept> after;
+    if (!fit_chain(bench.levels(), options, chain, [&] { after.push_back(kept()); })) return;
+    after.push_back(kept());
+    Shares best(levels, {0, 0.0f, 0.0f}), now(levels, {after.size() - 1, 1.0f, 1.0f});
     const auto show = [&](const Shares& shares) {
         for (std::size_t k = 1; k < levels; ++k) {
             if (before[k][0].empty() || shares[k] == now[k]) continue;
             for (std::size_t i = 0; i < kParts; ++i)
                 if (k < parts[i]->size())
-                    mix(before[k][i], after[k][i], i == 2 ? shares[k].metal : shares[k].fitted,
-                        (*parts[i])[k]);
+                    mix(before[k][i], after[shares[k].fit][k][i],
+                        i == kMetal ? shares[k].metal : shares[k].fitted, (*parts[i])[k]);
         }
         now = shares;
     };
@@ -115,17 +128,26 @@ void settle_fit(const PictureBench& bench, const std::vector<PictureScore>& plai
         least = cost;
         best = shares;
     };
-    for (const float share : kFitted) attempt(Shares(levels, {share, share}));
-    for (std::size_t k = levels; k-- > 1;) {
-        if (before[k][0].empty()) continue;
-        const auto change = [&](float fitted, float of_metal) {
-            Shares shares = best;
-            shares[k] = {fitted, of_metal};
-            if (!(shares[k] == best[k])) attempt(shares);
-        };
-        for (const float share : kFittedLevel) change(share, best[k].metal);
-        for (const float share : kFittedLevel)
-            if (metal) change(best[k].fitted, share);
+    const bool thorough = options.surface == SurfaceClass::Metal;
+    const std::span<const float> of_level = thorough ? std::span<const float>(kFittedLevel) : kFewer;
+    for (std::size_t fit = 0; fit < after.size(); ++fit)
+        for (const float share : kFitted)
+            if (thorough || share >= 0.25f) attempt(Shares(levels, {fit, share, share}));
+    for (int sweep = 0; sweep < (thorough ? kSweeps : 1); ++sweep) {
+        const double at_first = least;
+        for (std::size_t k = levels; k-- > 1;) {
+            if (before[k][0].empty()) continue;
+            const auto change = [&](const Share& share) {
+                Shares shares = best;
+                shares[k] = share;
+                if (!(share == best[k])) attempt(shares);
+            };
+            for (std::size_t fit = 0; fit < after.size(); ++fit)
+                for (const float share : of_level) change({fit, share, best[k].metal});
+            for (const float share : of_level)
+                if (colors_metal) change({best[k].fit, best[k].fitted, share});
+        }
+        if (least > at_first - kClear) break;
     }
     show(best);
 }
