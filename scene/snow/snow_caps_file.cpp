@@ -9,7 +9,7 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x62706163;  // "capb"
+constexpr std::uint32_t kMagic = 0x63706163;  // "capc"
 static_assert(sizeof(SnowCaps::Point) == 31 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
