@@ -3,8 +3,10 @@
 // the tile's list, the sky, emission, fog. Pixels without a surface are left alone.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#define FRAME_BY_WORDS
 #include "gpu/lighting/models_io.h"
 #include "formulas/color/srgb.h"
 #include "formulas/light/area.h"
@@ -68,7 +70,8 @@ layout(constant_id = LIGHTING_SPEC_GATHERS) const uint GATHERS = 0u;
 LIGHTING_MODELS(ROW)
 #undef ROW
 
-layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; };
+#define FRAME_PLACE binding = LIGHTING_FRAME
+#include "gpu/frame/frame_words.glsl"
 layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
 layout(binding = LIGHTING_OCCLUSION) uniform usamplerBuffer occlusion_words;
 layout(binding = LIGHTING_SHADOW) uniform sampler2DArray shadow_map;
@@ -325,6 +328,7 @@ void list_mirror(bool mirrors, ivec2 texel)
 
 void main()
 {
+    read_frame();
     ivec2 texel;
     const bool inside = this_pixel(frame.size, texel);
     if (TOGETHER) {

@@ -1,6 +1,7 @@
 #include "gpu/passes/lighting/lighting.h"
 
 #include "formulas/light/reflection_probe.h"
+#include "gpu/frame/frame_words_io.h"
 #include "gpu/passes/lighting/lighting_io.h"
 
 namespace petrichor::gpu {
@@ -17,7 +18,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
     ComputePass pass{
         .name = "lighting",
         .shader = variant.shader,
-        .constants = {{LIGHTING_SPEC_WEATHER, variant.weather},
+        .constants = {{FRAME_SPEC_LANES, targets.lanes},
+                      {LIGHTING_SPEC_WEATHER, variant.weather},
                       {LIGHTING_SPEC_SHADOWS, variant.shadows},
                       {LIGHTING_SPEC_IMAGE_BASED_LIGHT, variant.image_based_light},
                       {LIGHTING_SPEC_AMBIENT_OCCLUSION, variant.ambient_occlusion},
