@@ -6,6 +6,7 @@
 #include "gpu/build_frame.h"
 #include "formulas/weather/falls_here.h"
 #include "gpu/frame/falls.h"
+#include "gpu/frame/frame_words_io.h"
 #include "gpu/lighting/models_io.h"
 #include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
@@ -221,7 +222,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     const bool coarse = frame.settings.coarse_shadows;
     c.shadow_texel_m = maps.shadow_views[coarse ? kCoarseCascade : 0].texel_m;
     for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
-        c.shadow_from_world[i] = maps.shadow_views[i].map_from_world;
+        c.arrays.shadow_from_world[i] = maps.shadow_views[i].map_from_world;
         c.cascade_scale[static_cast<int>(i)] =
             maps.shadow_views[i].texel_m / std::max(c.shadow_texel_m, 1e-9f);
     }
@@ -230,8 +231,8 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     c.shelter_from_world = maps.shelter_view.map_from_world;
     if (!maps.sky_valid) c.flags &= ~FRAME_SHELTER;
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
-        c.sky_from_world[i] = maps.sky_views[i].map_from_world;
-        c.sky_direction[i] =
+        c.arrays.sky_from_world[i] = maps.sky_views[i].map_from_world;
+        c.arrays.sky_direction[i] =
             glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
     }
     std::vector<Fall> falls = falls_of(frame, weather);
@@ -239,7 +240,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     int k = 0;
     for (const Fall& fall : falls) {
         const int i = fall.direction;
-        c.falls[k++] = fall_constants(maps.sky_views[static_cast<std::size_t>(i)], sky_direction(i), fall);
+        c.arrays.falls[k++] = fall_constants(maps.sky_views[static_cast<std::size_t>(i)], sky_direction(i), fall);
     }
     c.flow_size = r.surface_maps->flow->width;
     c.snow_size = r.surface_maps->snow->width;
@@ -322,7 +323,7 @@ void look_from_lamps(FrameGraph& graph, const Frame& frame, shared::FrameConstan
         const glm::vec3 offset = lamp_offset_m(lamps[k], sample, frame.settings.samples,
                                                frame.settings.seed + 17u * static_cast<std::uint32_t>(k));
         lamps[k].position_m += offset;
-        c.lamp_offset_m[k] = glm::vec4(offset, 0.0f);
+        c.arrays.lamp_offset_m[k] = glm::vec4(offset, 0.0f);
     }
     r.lamp_shadows->add(graph, *r.scene, *r.triangles, lamps);
 }

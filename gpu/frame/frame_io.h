@@ -30,13 +30,19 @@ struct FallConstants {
     int layer;     // number of the map
 };
 
-struct FrameConstants {
-    mat4 world_to_clip;
+// Those of which shaders ask some by number.
+struct FrameArrays {
+    FallConstants falls[SKY_DIRECTIONS];  // where rain and snow come from, as many as SURFACE_SPEC_FALLS says
     mat4 shadow_from_world[SHADOW_CASCADES];  // to (u, v, depth), reversed depth
-    mat4 shelter_from_world;
     mat4 sky_from_world[SKY_DIRECTIONS];
     vec4 sky_direction[SKY_DIRECTIONS];  // towards the sky, unit
-    FallConstants falls[SKY_DIRECTIONS];  // where rain and snow come from, as many as SURFACE_SPEC_FALLS says
+    vec4 lamp_offset_m[LAMP_SHADOWS_MOST];  // of the point that a lamp's shadow is seen from
+};
+
+// A new member is listed in frame_words_io.h, too.
+struct FrameConstants {
+    mat4 world_to_clip;
+    mat4 shelter_from_world;
 
     vec3 camera_m;
     float time_s;
@@ -117,7 +123,9 @@ struct FrameConstants {
     PatchGrid patches;  // levels 0: none
     float snow_lift_m;  // snow with a body stands at most so far over its ground
     PlaceConstants place;  // of the scene's patches
-    vec4 lamp_offset_m[LAMP_SHADOWS_MOST];  // of the point that a lamp's shadow is seen from
+#ifndef FRAME_BY_WORDS  // they are beside it there
+    FrameArrays arrays;
+#endif
 };
 
 SHARED_END

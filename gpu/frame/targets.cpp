@@ -143,6 +143,7 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.width = width;
     targets.height = height;
     targets.filters = device.filters_floats();
+    targets.lanes = device.info().kind == "cpu" ? device.subgroup_size() : 0;
     targets.between = make_sampler(device, targets.filters ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
                                    VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, 0.0f, true);
     targets.nearest = make_sampler(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,

@@ -55,6 +55,7 @@ struct FrameTargets {
     SamplerHandle nearest;                ///< for texelFetch
     SamplerHandle between;                ///< between texels of floats, where the device filters them
     bool filters = false;                 ///< whether it does
+    std::uint32_t lanes = 0;              ///< of a CPU's subgroup (gpu/frame/lane_words.glsl); 0: another device
     std::unique_ptr<GpuBuffer> occlusion;  ///< of the screen: a word a block, formulas/light/occlusion_points.h
     std::unique_ptr<GpuBuffer> occlusion_points;  ///< of blocks
     std::unique_ptr<GpuImage>

@@ -269,6 +269,10 @@ struct MaterialConstants {
     TextureSlot slots[MATERIAL_TEXTURE_SLOTS];
 };
 #undef MATERIAL_FIELD
+#define MATERIAL_WORD_COUNT 381
+#ifdef __cplusplus
+static_assert(sizeof(MaterialConstants) == 4 * MATERIAL_WORD_COUNT);
+#endif
 
 // Push constants of one draw.
 struct DrawConstants {

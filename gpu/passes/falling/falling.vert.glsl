@@ -41,7 +41,7 @@ float sun_seen(vec3 p, float view_m)
 {
     int cascade = 0;
     while (cascade < SHADOW_CASCADES - 1 && view_m > frame.cascade_end_m[cascade]) ++cascade;
-    const vec4 map = frame.shadow_from_world[cascade] * vec4(p, 1.0);
+    const vec4 map = frame.arrays.shadow_from_world[cascade] * vec4(p, 1.0);
     if (any(greaterThan(abs(map.xyz - 0.5), vec3(0.5)))) return 1.0;
     return texture(shadow_map, vec4(map.xy, float(cascade), map.z));
 }

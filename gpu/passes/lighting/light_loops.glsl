@@ -44,7 +44,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
     if (LAMP_SHADOWS != 0u && shadowed) {
         const float number = shadow.number;
         vec3 from = sphere.xyz;
-        if (SOFT_LAMPS != 0u) from += frame.lamp_offset_m[max(int(number), 0)].xyz;
+        if (SOFT_LAMPS != 0u) from += frame_arrays.lamp_offset_m[max(int(number), 0)].xyz;
         if (number >= 0.0) visible = lamp_visibility(number, from, p.position, p.mesh_normal, texel);
     }
     if (MASKED) visible = masked(visible, shadow);

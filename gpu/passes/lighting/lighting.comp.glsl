@@ -3,8 +3,10 @@
 // the tile's list, the sky, emission, fog. Pixels without a surface are left alone.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#define FRAME_BY_WORDS
 #include "gpu/lighting/models_io.h"
 #include "formulas/color/srgb.h"
 #include "formulas/light/area.h"
@@ -68,8 +70,8 @@ layout(constant_id = LIGHTING_SPEC_GATHERS) const uint GATHERS = 0u;
 LIGHTING_MODELS(ROW)
 #undef ROW
 
-layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
+#define FRAME_PLACE binding = LIGHTING_FRAME
+#include "gpu/frame/frame_words.glsl"
 layout(binding = LIGHTING_OCCLUSION) uniform usamplerBuffer occlusion_words;
 layout(binding = LIGHTING_SHADOW) uniform sampler2DArray shadow_map;
 layout(binding = LIGHTING_LAMP_SHADOWS) uniform sampler2DArray lamp_shadow_map;
@@ -87,13 +89,13 @@ layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_PARTS, rgba32f) uniform image2DArray light_parts;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
 layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texels;
-layout(binding = LIGHTING_PROBES, scalar) uniform Probes { ProbeSpread probes[LIGHTING_MOST_PROBES]; };
 layout(binding = LIGHTING_PROBE_BANDS) uniform usamplerBuffer probe_bands;
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
 layout(binding = LIGHTING_MIRROR_LIST, scalar) buffer Mirrors { uint mirror_count; uint mirror_pixels[]; };
 
+#include "gpu/passes/lighting/lighting_words.glsl"
 #include "gpu/frame/air.glsl"
 #include "gpu/frame/sky_quads.glsl"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
@@ -105,7 +107,9 @@ const float kMirrorRoughness = 0.32;
 vec3 sky_irradiance(vec3 n)
 {
     vec3 e = vec3(0.0);  // divided by pi: what a white Lambert surface sends out
-    for (int i = 0; i < kHarmonics; ++i) e += sky_light.harmonics[i].xyz * harmonic(i, n);
+#define BAND(K) e += sky_light.harmonics[K].xyz * harmonic(K, n);
+    BAND(0) BAND(1) BAND(2) BAND(3) BAND(4) BAND(5) BAND(6) BAND(7) BAND(8)
+#undef BAND
     e += over_sky_axes(n, sky_light.missed[0].xyz, sky_light.missed[1].xyz, sky_light.missed[2].xyz,
                        sky_light.missed[3].xyz, sky_light.missed[4].xyz, sky_light.missed[5].xyz);
     return max(e, vec3(0.0));
@@ -325,6 +329,9 @@ void list_mirror(bool mirrors, ivec2 texel)
 
 void main()
 {
+    read_frame();
+    read_sky_light();
+    read_probes();
     ivec2 texel;
     const bool inside = this_pixel(frame.size, texel);
     if (TOGETHER) {

@@ -1,11 +1,20 @@
 #include "gpu/passes/lighting/lighting.h"
 
+#include <cstddef>
+
 #include "formulas/light/reflection_probe.h"
+#include "gpu/frame/frame_words_io.h"
 #include "gpu/passes/lighting/lighting_io.h"
+#include "gpu/passes/sky/sky_light_io.h"
 
 namespace petrichor::gpu {
 
 static_assert(LIGHTING_MOST_PROBES == kMostProbes);
+// As lighting_words.glsl reads them, word by word.
+static_assert(sizeof(shared::SkyLight) == 4 * 62 && offsetof(shared::SkyLight, missed) == 4 * 36 &&
+              offsetof(shared::SkyLight, exposure) == 4 * 60);
+static_assert(sizeof(shared::ProbeSpread) == 4 * 48 && offsetof(shared::ProbeSpread, low) == 4 * 4 &&
+              offsetof(shared::ProbeSpread, high) == 4 * 8 && offsetof(shared::ProbeSpread, bands) == 4 * 12);
 
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, LightTables& light_tables, SkyMaps& sky,
@@ -17,7 +26,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
     ComputePass pass{
         .name = "lighting",
         .shader = variant.shader,
-        .constants = {{LIGHTING_SPEC_WEATHER, variant.weather},
+        .constants = {{FRAME_SPEC_LANES, targets.lanes},
+                      {LIGHTING_SPEC_WEATHER, variant.weather},
                       {LIGHTING_SPEC_SHADOWS, variant.shadows},
                       {LIGHTING_SPEC_IMAGE_BASED_LIGHT, variant.image_based_light},
                       {LIGHTING_SPEC_AMBIENT_OCCLUSION, variant.ambient_occlusion},

@@ -15,13 +15,13 @@ float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
     const float scale = beyond_second ? frame.cascade_scale.z : beyond_first ? frame.cascade_scale.y : frame.cascade_scale.x;
     const float texel_m = frame.shadow_texel_m * scale;
     const vec4 place = vec4(position + frame.sun_direction * shadow_lift_m(normal, frame.sun_direction, texel_m), 1.0);
-    const vec4 first_map = frame.shadow_from_world[0] * place;
-    const vec4 second_map = frame.shadow_from_world[1] * place;
-    const vec4 third_map = frame.shadow_from_world[2] * place;
+    const vec4 first_map = frame_arrays.shadow_from_world[0] * place;
+    const vec4 second_map = frame_arrays.shadow_from_world[1] * place;
+    const vec4 third_map = frame_arrays.shadow_from_world[2] * place;
     const vec4 map = beyond_second ? third_map : beyond_first ? second_map : first_map;
     if (any(greaterThan(abs(map.xyz - 0.5), vec3(0.5)))) return 1.0;
     // The maps differ in their width alone.
-    const mat3 gradients = transpose(mat3(frame.shadow_from_world[2]));
+    const mat3 gradients = transpose(mat3(frame_arrays.shadow_from_world[2]));
     const vec2 slope = shadow_plane_slope(normal, gradients[0], gradients[1], gradients[2]) * (scale / frame.cascade_scale.z);
     const float turn = 6.2831853 * dither(texel, frame.sample_index);
     const vec2 axis = vec2(cos(turn), sin(turn)) * SHADOW_DISC_TEXELS;
@@ -72,13 +72,13 @@ float sky_visibility(vec3 position, vec3 normal, ivec2 texel)
     float total = 0.0;
     for (int k = 0; k < 4; ++k) {
         const int i = (start + k * (SKY_DIRECTIONS / 4)) % SKY_DIRECTIONS;
-        const vec4 direction = frame.sky_direction[i];
+        const vec4 direction = frame_arrays.sky_direction[i];
         const float facing = dot(normal, direction.xyz);
         if (facing <= 0.0) continue;
         // Directions are spread by their cosine with the vertical: undone for other normals.
         const float weight = facing / max(direction.y, 0.2);
         const vec3 lifted = position + normal * (direction.w * 1.2) + direction.xyz * (direction.w * 0.8);
-        const vec4 map = frame.sky_from_world[i] * vec4(lifted, 1.0);
+        const vec4 map = frame_arrays.sky_from_world[i] * vec4(lifted, 1.0);
         const bool inside = all(lessThanEqual(abs(map.xyz - 0.5), vec3(0.5)));
         const float seen =
             inside ? texture(sky_visibility_map, vec4(map.xy + blur, float(i), map.z)) : 1.0;

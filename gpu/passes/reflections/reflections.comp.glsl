@@ -4,6 +4,9 @@
 // stands in, dimmed by how much of it the place sees.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#define FRAME_BY_WORDS
 #include "gpu/frame/gbuffer.glsl"
 #include "formulas/noise/noise.h"
 #include "gpu/outputs/light_parts_io.h"
@@ -12,7 +15,8 @@
 #include "gpu/frame/pixel_list.glsl"
 
 layout(local_size_x = REFLECTIONS_TILE, local_size_y = REFLECTIONS_TILE) in;
-layout(binding = REFLECTIONS_FRAME, scalar) uniform Frame { FrameConstants frame; };
+#define FRAME_PLACE binding = REFLECTIONS_FRAME
+#include "gpu/frame/frame_words.glsl"
 layout(binding = REFLECTIONS_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = REFLECTIONS_RADIANCE) uniform sampler2D radiance_map;
 layout(binding = REFLECTIONS_MIRROR_WEIGHT) uniform sampler2D mirror_weight;
@@ -236,6 +240,7 @@ vec2 reflection_label(vec3 weight, Hit hit, float probed)
 
 void main()
 {
+    read_frame();
     ivec2 texel;
     if (!this_pixel(frame.size, texel)) return;
     const vec4 mirror = texelFetch(mirror_weight, texel, 0);

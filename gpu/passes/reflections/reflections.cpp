@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "gpu/frame/frame_words_io.h"
 #include "gpu/passes/reflections/reflections_io.h"
 
 namespace petrichor::gpu {
@@ -14,7 +15,8 @@ void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
     ComputePass pass{
         .name = "reflections",
         .shader = "reflections.comp",
-        .constants = {{REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u},
+        .constants = {{FRAME_SPEC_LANES, targets.lanes},
+                      {REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u},
                       {REFLECTIONS_SPEC_SPLIT, outputs.split},
                       {REFLECTIONS_SPEC_LABEL, outputs.label},
                       {REFLECTIONS_SPEC_PICTURE, outputs.picture},

@@ -28,7 +28,7 @@ vec3 stray(SurfaceInput at)
 // Adds what falls along one direction.
 void fall_on(inout Exposure open, SurfaceInput at, vec3 strayed, int k)
 {
-    const FallConstants fall = frame.falls[k];
+    const FallConstants fall = fall_of(k);
     const vec4 lifted = vec4(strayed + at.normal * fall.lift_m, 1.0);
     const vec3 map = vec3(dot(fall.column, lifted), dot(fall.row, lifted), dot(fall.depth, lifted));
     const float half_side = 0.5 * float(SKY_MAP_SIZE);

@@ -3,6 +3,9 @@
 // through the pixel and by the rays through its neighbours, whose differences are the derivatives.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#define FRAME_BY_WORDS
 #include "gpu/passes/surface_resolve/surface_resolve_io.h"
 
 layout(constant_id = RESOLVE_SPEC_WEATHER) const uint SURFACE_WEATHER = 1u;
@@ -114,6 +117,7 @@ vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 at)
 
 void main()
 {
+    read_constants();
     // The list of a material ends where listing left its counter; it begins where the one before ends.
     const int number = int(params.material);
     const uint begin = number > 0 ? texelFetch(ends, number - 1).r : 0u;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "gpu/frame/frame_words_io.h"
 #include "gpu/passes/surface_resolve/surface_resolve_io.h"
 #include "gpu/upload/draw.h"
 
@@ -202,7 +203,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     const auto glows = [any_emission](const GpuMaterial& material) {
         return any_emission && (material.glows || material.own_surface != 0);
     };
-    const auto variant = [parts, weather, tracks, shares, glows](const GpuMaterial& material) {
+    const std::uint32_t lanes = targets.lanes;
+    const auto variant = [parts, lanes, weather, tracks, shares, glows](const GpuMaterial& material) {
         return std::vector<Specialization>{
             {SURFACE_SPEC_HOLES, 0},
             {SURFACE_SPEC_SLOTS, material.slots},
@@ -219,6 +221,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_LAYER_ROLES_C, material.layer_roles[2]},
             {SURFACE_SPEC_BESIDES, material.besides | shares},
             {SURFACE_SPEC_PLACE, weather.place},
+            {FRAME_SPEC_LANES, lanes},
             {RESOLVE_SPEC_WEATHER, parts.weather},
             {RESOLVE_SPEC_EMISSION, glows(material)},
             {RESOLVE_SPEC_PAYLOAD, (material.besides & BESIDES_AS_CLEARED) == 0},
