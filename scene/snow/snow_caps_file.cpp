@@ -9,7 +9,7 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x63706163;  // "capc"
+constexpr std::uint32_t kMagic = 0x64706163;  // "capd"
 static_assert(sizeof(SnowCaps::Point) == 31 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
