@@ -207,6 +207,7 @@ constexpr const char* kFooter =
     "  [prefilter]\n"
     "  rule = \"overlap\"                 # none: plain mips\n"
     "  quality = \"full\"                 # quick\n"
+    "  lobes = 2                        # a second lobe, in a texture of its own\n"
     "  [mips]\n"
     "  filter = \"kaiser\"                # box, lanczos3, mitchell; wrap_u, wrap_v, alpha_cutoff\n"
     "  alpha_weighted = false           # alpha of colour is no coverage\n"
@@ -236,6 +237,10 @@ void add_texture_build(CLI::App& texture)
                     "median, ..., or none");
     app->add_option("--quality", a->choice.quality, "prefilter: full or quick (default: as the recipe says, else quick)")
         ->check(CLI::IsMember({"full", "quick"}));
+    app->add_option("--lobes", a->choice.lobes,
+                    "of a texel of the small levels: 2 adds a texture {name}_second_lobe that a shader reads as "
+                    "formulas/light/second_lobe.h says (rule picture, quality full)")
+        ->check(CLI::Range(1, 2));
     app->add_option("--format", a->choice.format, "of all outputs")
         ->check(CLI::IsMember({"png", "tga", "tif", "exr", "dds", "ktx2"}));
     app->add_option("--size", a->choice.size, "longest side at most this")

@@ -594,6 +594,47 @@ TEST(TextureBuild, LevelsAreThoseOfWhatTheMetallicMapSays)
     EXPECT_FALSE(metal == some);
 }
 
+// A second lobe lies beside the normals of an engine, turned as they are, and is what is scored.
+TEST(TextureBuild, ASecondLobeGoesWithTheNormals)
+{
+    const Workplace place("build-lobes");
+    const texproc::MaterialMaps plate = texproc::generate_material(texproc::MaterialKind::MetalPlate, 64, 3, 1);
+    texproc::write_image(place / "in/plate_normal.png", plate.normal);
+    texproc::write_image(place / "in/plate_roughness.png", plate.roughness);
+    texproc::write_image(place / "in/plate_metallic.png", Image(64, 64, 1, ColorSpace::Data, 1.0f));
+    const auto built = [&](const std::string& lobes) {
+        const Outcome made = run({"texture", "build", "in", "--engine", "unreal", "--quality", "full", "--lobes", lobes,
+                                  "-o", "out" + lobes},
+                                 place);
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        return json::parse(contents(place / ("out" + lobes)).at("manifest.json"))["sets"][0]["picture_error"];
+    };
+    const json one = built("1"), two = built("2");
+    EXPECT_EQ(one["lobes"], 1);
+    EXPECT_EQ(two["lobes"], 2);
+    EXPECT_LT(two["shipped"]["rmse"].get<double>(), one["shipped"]["rmse"].get<double>());
+    EXPECT_FALSE(fs::exists(place / "out1/plate_second_lobe.dds"));
+    const texproc::RawImage lobe = texproc::read_raw(place / "out2/plate_second_lobe.dds"),
+                            normal = texproc::read_raw(place / "out2/T_plate_N.dds"),
+                            rough = texproc::read_raw(place / "in/plate_roughness.png");
+    ASSERT_EQ(lobe.channels, 4);
+    const Image a = to_image(lobe, ColorSpace::Data), b = to_image(normal, ColorSpace::Data),
+                r = to_image(rough, ColorSpace::Data);
+    for (int i = 0; i < 64; ++i) {  // level 0: both lobes are the same
+        EXPECT_NEAR(a.at(i, i, 0), b.at(i, i, 0), 0.003f);
+        EXPECT_NEAR(a.at(i, i, 1), b.at(i, i, 1), 0.003f);
+        EXPECT_NEAR(a.at(i, i, 2), r.at(i, i, 0), 0.003f);
+        EXPECT_NEAR(a.at(i, i, 3), 0.5f, 0.003f);
+    }
+    for (const std::vector<std::string>& wrong :
+         {std::vector<std::string>{"--engine", "unreal", "--quality", "quick"},
+          std::vector<std::string>{"--engine", "unreal", "--quality", "full", "--format", "png"}}) {
+        std::vector<std::string> command{"texture", "build", "in", "--lobes", "2", "-o", "wrong"};
+        command.insert(command.end(), wrong.begin(), wrong.end());
+        EXPECT_EQ(run(command, place).exit_code, 2);
+    }
+}
+
 // A leaf, green where its own opacity map says so and black elsewhere.
 TEST(TextureBuild, AnOpacityMapKeepsBlackOutOfTheLevels)
 {

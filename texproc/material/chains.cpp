@@ -9,6 +9,7 @@ PrefilterOptions prefilter_options(const PrefilterChoice& choice, const ChainUse
     options.quick = choice.quick;
     options.design_light = choice.design_light;
     options.joint = use.joint;
+    options.lobes = choice.lobes;
     options.bits = use.bits == 8 ? 8 : 0;  // codes chosen for the files that ship
     options.smoothness = use.smoothness;
     options.threads = use.threads;

@@ -17,6 +17,7 @@ struct PrefilterChoice {
     std::string rule = "picture";  ///< a name of rules(); "none": plain mips
     bool quick = true;             ///< overlap, picture: less search
     float design_light = 0.0f;     ///< as PrefilterOptions::design_light
+    int lobes = 1;                 ///< as PrefilterOptions::lobes
 };
 
 /// What the levels are for.

@@ -86,6 +86,7 @@ public:
           maps_(read_source_maps(plan, threads)),
           prefiltered_(plan, maps_, threads)
     {
+        if (prefiltered_.has_second_lobe()) maps_.images[kSecondLobe] = prefiltered_.second_lobe_of_maps();
     }
 
     MadeMaterial make()

@@ -77,6 +77,49 @@ PlannedOutput planned(const OutputRule& rule, const PlannedMaterial& material,
     return out;
 }
 
+// Beside the normals of every folder, in the same kind of file: a second lobe of their texels.
+void add_second_lobes(PlannedMaterial& material)
+{
+    const Recipe& recipe = *material.recipe;
+    if (recipe.prefilter.lobes != 2) return;
+    if (recipe.prefilter.rule != "picture" || recipe.prefilter.quick) {
+        throw Error("texture build: a second lobe is made by the rule picture in full quality",
+                    "Add --quality full, or leave --lobes out.");
+    }
+    std::vector<PlannedOutput> more;
+    std::set<std::string> folders;
+    for (const PlannedOutput& output : material.outputs) {
+        if (!output.prefiltered || !contains(output.roles, "normal") || !output.rule.has_levels()) continue;
+        if (!folders.insert(output.rule.folder).second) continue;
+        PlannedOutput second;
+        second.rule = output.rule;
+        second.rule.file = "{name}_second_lobe";
+        const auto& of_normal = output.rule.channels.channels;
+        const bool turned = std::find(of_normal.begin(), of_normal.end(), "1 - normal.g") != of_normal.end();
+        second.rule.channels = {"second lobe",
+                                "normal RG, roughness B, share A",
+                                {"second_lobe.r", turned ? "1 - second_lobe.g" : "second_lobe.g", "second_lobe.b",
+                                 "second_lobe.a"},
+                                {}};
+        second.rule.compression = "none";  // four numbers that have little to do with each other: blocks cost too much
+        second.rule.rdo.reset();
+        second.roles = {kSecondLobe};
+        second.prefiltered = true;
+        const std::string name = material.files.name + (material.files.tile.empty() ? "" : "." + material.files.tile);
+        std::string file = second.rule.file;
+        second.stem = (fs::path(output.rule.folder) / material.files.folder /
+                       file.replace(0, 6, name)).generic_string();
+        more.push_back(std::move(second));
+    }
+    const auto& inputs = material.files.inputs;
+    if (more.empty() && inputs.count("normal") && (inputs.count("roughness") || inputs.count("smoothness"))) {
+        throw Error("texture build: " + material.name + ": no output holds normals with their levels, which a second "
+                        "lobe goes with",
+                    "Ask for dds or ktx2 (--format), or leave --lobes out.");
+    }
+    material.outputs.insert(material.outputs.end(), more.begin(), more.end());
+}
+
 void check_files(const PlannedMaterial& material)
 {
     for (const auto& [role, map] : material.files.inputs) {
@@ -115,6 +158,7 @@ PlannedMaterial plan_material(const MaterialFiles& files,
         }
         material.outputs.push_back(output);
     }
+    add_second_lobes(material);
     return material;
 }
 

@@ -11,6 +11,10 @@
 
 namespace petrichor::texproc {
 
+/// The role of a texture that no map is given for: the second lobe of a texel, RGBA as
+/// formulas/light/second_lobe.h reads it.
+inline constexpr const char* kSecondLobe = "second_lobe";
+
 struct PlannedOutput {
     OutputRule rule;
     std::string stem;                ///< relative to the output folder, without extension

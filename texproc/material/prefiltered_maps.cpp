@@ -1,6 +1,7 @@
 #include "texproc/material/prefiltered_maps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/error.h"
@@ -118,6 +119,7 @@ std::vector<std::size_t> PrefilteredMaps::order() const
     std::stable_sort(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) {
         const auto turn = [&](std::size_t i) {
             if (holds(plan_.outputs[i], rough_role_)) return 1;
+            if (holds(plan_.outputs[i], kSecondLobe)) return 2;  // so is which levels are plain
             const std::vector<std::string>& roles = plan_.outputs[i].roles;
             return std::find(roles.begin(), roles.end(), "albedo") != roles.end() ? 2 : 0;
         };
@@ -132,7 +134,7 @@ std::vector<Image> PrefilteredMaps::read_back(std::size_t number, const std::str
 {
     const auto has = [&](const std::string& name) { return maps_.find(name) != nullptr; };
     return shipped_levels(folder, plan_.outputs[number], made[number], role,
-                          role == "normal" ? 3 : 1, maps_.images.at("normal").width, has);
+                          role == "normal" ? 3 : role == kSecondLobe ? 4 : 1, maps_.images.at("normal").width, has);
 }
 
 void PrefilteredMaps::aim(std::size_t number, const std::vector<MadeOutput>& made,
@@ -156,11 +158,90 @@ const std::vector<Image>* PrefilteredMaps::levels(std::size_t number, const std:
 {
     if (rough_role_.empty() || !holds(plan_.outputs[number], role)) return nullptr;
     if (role == "normal") return &chains_.normal;
+    if (role == kSecondLobe) return &second_levels(number);
     if (role != rough_role_) return nullptr;
     if (const auto plain = guarded_.find(number); plain != guarded_.end()) return &plain->second;
     const std::optional<std::size_t> normals = normals_of(number);
     const auto aimed = normals ? aimed_.find(*normals) : aimed_.end();
     return aimed == aimed_.end() ? &chains_.roughness : &aimed->second;
+}
+
+namespace {
+
+// RG normal, B roughness of 0..1 whatever the map holds, A share.
+Image packed_lobe(const Image& normal, const Image& rough, const Image* share, bool smoothness)
+{
+    Image to(rough.width, rough.height, 4, ColorSpace::Data, 0.5f);
+    const std::size_t step = static_cast<std::size_t>(normal.channels);
+    for (std::size_t i = 0; i < rough.pixels.size(); ++i) {
+        std::copy_n(&normal.pixels[step * i], 2, &to.pixels[4 * i]);
+        to.pixels[4 * i + 2] = smoothness ? 1.0f - rough.pixels[i] : rough.pixels[i];
+        if (share) to.pixels[4 * i + 3] = share->pixels[i];
+    }
+    return to;
+}
+
+}  // namespace
+
+RawImage PrefilteredMaps::second_lobe_of_maps() const
+{
+    return to_raw(packed_lobe(to_image(maps_.images.at("normal"), ColorSpace::Data), maps_.data(rough_role_), nullptr,
+                              options_.smoothness),
+                  PixelType::U16);
+}
+
+// Where levels of the roughness were made plain there is no second lobe.
+SecondLobe PrefilteredMaps::second_with(const std::vector<Image>& roughness) const
+{
+    SecondLobe second = chains_.second;
+    for (std::size_t k = 1; k < second.share.size() && k < roughness.size(); ++k) {
+        if (roughness[k].pixels == chains_.roughness[k].pixels) continue;
+        second.normal[k] = chains_.normal[k];
+        second.roughness[k] = roughness[k];
+        std::fill(second.share[k].pixels.begin(), second.share[k].pixels.end(), 0.5f);
+    }
+    return second;
+}
+
+const std::vector<Image>& PrefilteredMaps::second_levels(std::size_t number) const
+{
+    if (const auto made = second_.find(number); made != second_.end()) return made->second;
+    // As the roughness of the same folder is.
+    const std::vector<Image>* roughness = &chains_.roughness;
+    for (const auto& [output, levels] : guarded_)
+        if (plan_.outputs[output].rule.folder == plan_.outputs[number].rule.folder) roughness = &levels;
+    const SecondLobe second = second_with(*roughness);
+    std::vector<Image>& packed = second_[number];
+    packed.resize(second.share.size());
+    for (std::size_t k = 1; k < packed.size(); ++k)
+        packed[k] = packed_lobe(second.normal[k], second.roughness[k], &second.share[k], options_.smoothness);
+    return packed;
+}
+
+// The second lobe that is read with the roughness of an output: from its file, where that is there.
+void PrefilteredMaps::read_second(const std::vector<MadeOutput>& made, const std::filesystem::path& folder,
+                                  std::size_t rough, Prefiltered& read) const
+{
+    if (!has_second_lobe()) return;
+    const auto guarded = guarded_.find(rough);
+    read.second = second_with(guarded == guarded_.end() ? chains_.roughness : guarded->second);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        if (!holds(plan_.outputs[i], kSecondLobe) || made[i].files.empty()) continue;
+        if (plan_.outputs[i].rule.folder != plan_.outputs[rough].rule.folder) continue;
+        const std::vector<Image> levels = read_back(i, kSecondLobe, made, folder);
+        for (std::size_t k = 1; k < levels.size() && k < read.second.share.size(); ++k) {
+            if (levels[k].empty()) continue;
+            for (std::size_t t = 0; t < read.second.share[k].pixels.size(); ++t) {
+                const float* code = &levels[k].pixels[4 * t];
+                const float x = 2.0f * code[0] - 1.0f, y = 2.0f * code[1] - 1.0f;
+                float* n = &read.second.normal[k].pixels[3 * t];
+                n[0] = code[0], n[1] = code[1];
+                n[2] = 0.5f + 0.5f * std::sqrt(std::max(1.0f - x * x - y * y, 0.0f));
+                read.second.roughness[k].pixels[t] = options_.smoothness ? 1.0f - code[2] : code[2];
+                read.second.share[k].pixels[t] = code[3];
+            }
+        }
+    }
 }
 
 std::vector<Image> PrefilteredMaps::texel_weights(std::size_t number, std::size_t first) const
@@ -192,6 +273,7 @@ std::optional<Prefiltered> PrefilteredMaps::shipped(const std::vector<MadeOutput
         if (normals && !read.roughness.empty()) {
             read.normal = read_back(*normals, "normal", made, folder);
         }
+        if (!read.roughness.empty()) read_second(made, folder, i, read);
     }
     if (read.roughness.empty()) {  // files that are not read back: as their numbers are rounded
         read = chains_;
@@ -252,6 +334,7 @@ Prefiltered PrefilteredMaps::as_read(std::size_t number, const std::vector<MadeO
         read.normal = read_back(*normals, "normal", made, folder);
     read.base_share = chains_.base_share;
     read.metal_share = chains_.metal_share;
+    read_second(made, folder, number, read);
     return read;
 }
 

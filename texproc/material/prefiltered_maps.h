@@ -36,6 +36,10 @@ public:
     void guard(std::size_t number, std::vector<MadeOutput>& made,
                const std::filesystem::path& folder, const std::function<MadeOutput()>& write);
 
+    bool has_second_lobe() const { return !chains_.second.share.empty(); }
+    /// Level 0 of kSecondLobe, where both lobes are those of the maps.
+    RawImage second_lobe_of_maps() const;
+
     /// Levels 1.. of a role for an output; nullptr where they are plain mips.
     const std::vector<Image>* levels(std::size_t number, const std::string& role) const;
     /// What the base colour is to be multiplied by (apply_base_shares); empty: by nothing.
@@ -62,6 +66,10 @@ private:
     bool holds(const PlannedOutput& output, const std::string& role) const;
     bool changes_normals(const PlannedOutput& output) const;
     std::optional<std::size_t> normals_of(std::size_t number) const;
+    SecondLobe second_with(const std::vector<Image>& roughness) const;
+    const std::vector<Image>& second_levels(std::size_t number) const;
+    void read_second(const std::vector<MadeOutput>& made, const std::filesystem::path& folder, std::size_t rough,
+                     Prefiltered& read) const;
     std::vector<Image> read_back(std::size_t number, const std::string& role,
                                  const std::vector<MadeOutput>& made,
                                  const std::filesystem::path& folder) const;
@@ -76,6 +84,7 @@ private:
     std::map<std::size_t, std::vector<Image>> guarded_;  // roughness with plain levels, by output
     std::map<std::size_t, PictureScore> plain_scores_;   // of plain mips in the files of an output
     mutable std::optional<PictureBench> bench_;
+    mutable std::map<std::size_t, std::vector<Image>> second_;  // packed levels of the second lobe, by output
 };
 
 }  // namespace petrichor::texproc

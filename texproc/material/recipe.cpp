@@ -36,7 +36,7 @@ std::string options_text(const Recipe& recipe)
         "green " + std::to_string(static_cast<int>(recipe.green)) + ", layout " + recipe.layout +
         "\nprefilter " + recipe.prefilter.rule + (recipe.prefilter.quick ? " quick" : " full") +
         " light " + number_text(static_cast<double>(recipe.prefilter.design_light)) +
-        (recipe.score ? " scored" : "") + "\nmips " +
+        (recipe.prefilter.lobes == 2 ? " two lobes" : "") + (recipe.score ? " scored" : "") + "\nmips " +
         kFilterNames[static_cast<std::size_t>(m.filter)] + " wrap " + std::to_string(m.wrap_u) +
         std::to_string(m.wrap_v) + " mirror " + std::to_string(m.mirror_u) +
         std::to_string(m.mirror_v) + " cutoff " + number_text(static_cast<double>(m.alpha_cutoff)) +

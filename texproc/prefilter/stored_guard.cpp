@@ -57,17 +57,26 @@ StoredGuard guard_stored(const PictureBench& bench, const Prefiltered& ours,
     if (!is_worse(guard.score, guard.plain_score)) return guard;
 
     const std::size_t levels = std::min(ours.roughness.size(), plain.size());
+    // With the roughness of a level its second lobe goes.
+    const auto set_plain = [&](std::size_t k, bool is_plain) {
+        chain.roughness[k] = is_plain ? plain[k] : ours.roughness[k];
+        if (k >= ours.second.share.size()) return;
+        for (auto part : {&SecondLobe::normal, &SecondLobe::roughness, &SecondLobe::share}) {
+            Image& level = (chain.second.*part)[k];
+            level = is_plain ? Image() : (ours.second.*part)[k];
+        }
+    };
     std::vector<std::pair<double, std::size_t>> costs;  // with one level plain
     for (std::size_t k = 1; k < levels; ++k) {
         if (ours.roughness[k].empty() || plain[k].empty()) continue;
-        chain.roughness[k] = plain[k];
+        set_plain(k, true);
         costs.emplace_back(excess(score(chain), guard.plain_score), k);
-        chain.roughness[k] = ours.roughness[k];
+        set_plain(k, false);
     }
     std::sort(costs.begin(), costs.end());
     guard.plain.assign(levels, 0);
     for (const auto& [cost, k] : costs) {
-        chain.roughness[k] = plain[k];
+        set_plain(k, true);
         guard.plain[k] = 1;
         guard.score = score(chain);
         if (!is_worse(guard.score, guard.plain_score)) return guard;
@@ -77,6 +86,7 @@ StoredGuard guard_stored(const PictureBench& bench, const Prefiltered& ours,
     chain.base_share.clear();
     chain.metal_share.clear();
     chain.roughness = ours.roughness;
+    chain.second = ours.second;
     guard.score = score(chain);
     if (!is_worse(guard.score, guard.plain_score)) {
         guard.plain.clear();

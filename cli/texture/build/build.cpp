@@ -118,6 +118,7 @@ std::string manifest_entry(const texproc::PlannedMaterial& material,
             return ordered_json{{"rmse", score.rmse}, {"flicker", score.flicker}};
         };
         entry["picture_error"] = {{"rule", material.recipe->prefilter.rule},
+                                  {"lobes", material.recipe->prefilter.lobes},
                                   {"shipped", numbers(made.picture_error->shipped)},
                                   {"plain", numbers(made.picture_error->plain)}};
     }

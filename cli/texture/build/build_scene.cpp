@@ -138,6 +138,10 @@ bool build_scene(const SceneBuild& build)
         list_plan(build);
         return true;
     }
+    if (build.choice.lobes == 2) {
+        throw Error("texture build: glTF has no place for a second lobe of a texel",
+                    "Leave --lobes out, or build the textures of the scene for an engine.");
+    }
     texproc::GltfBuildOptions options;
     options.images.size = build.choice.size;
     options.images.threads = build.threads;

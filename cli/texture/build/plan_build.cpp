@@ -60,6 +60,7 @@ void apply(const BuildChoice& choice, texproc::Recipe& recipe)
         recipe.prefilter.rule = choice.rule;
     }
     if (!choice.quality.empty()) recipe.prefilter.quick = choice.quality == "quick";
+    if (choice.lobes != 0) recipe.prefilter.lobes = choice.lobes;
     if (choice.no_score) recipe.score = false;
     if (!choice.wrap.empty()) set_edges(choice.wrap, recipe);
     if (choice.normal_green == "up") recipe.green = texproc::Green::Up;

@@ -17,6 +17,7 @@ struct BuildChoice {
     std::string wrap;                   ///< wrap, clamp, mirror; empty: as the recipe says
     std::string normal_green;           ///< up, down; empty: as the recipe says
     int size = 0;
+    int lobes = 0;  ///< 1 or 2; 0: as the recipe says
     std::optional<float> rdo, rdo_most;  ///< of all outputs in blocks; none: as the recipe says
     bool no_score = false;
 };

@@ -133,7 +133,7 @@ void read_inputs(const TomlValue& table, const fs::path& folder, texproc::Recipe
 
 void read_prefilter(const TomlValue& table, texproc::Recipe& recipe)
 {
-    for (const auto& [key, value] : table.entries({"rule", "quality", "design_light", "score"})) {
+    for (const auto& [key, value] : table.entries({"rule", "quality", "design_light", "lobes", "score"})) {
         if (key == "rule") {
             recipe.prefilter.rule = value.text();
             if (recipe.prefilter.rule != "none") texproc::rule_named(recipe.prefilter.rule);
@@ -141,6 +141,7 @@ void read_prefilter(const TomlValue& table, texproc::Recipe& recipe)
         if (key == "quality") recipe.prefilter.quick = value.choice({"full", "quick"}) == 1;
         if (key == "design_light")
             recipe.prefilter.design_light = static_cast<float>(value.number(0.0, 1.0));
+        if (key == "lobes") recipe.prefilter.lobes = value.integer(1, 2);
         if (key == "score") recipe.score = value.boolean();
     }
 }
