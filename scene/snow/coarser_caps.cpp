@@ -48,6 +48,7 @@ public:
             }
         }
         held_.resize(triangles_.size());
+        risen_m_.resize(triangles_.size());
         stars_.resize(caps.points.size());
         for (std::uint32_t t = 0; t < triangles_.size(); ++t)
             for (const std::uint32_t corner : triangles_[t].corner) stars_[corner].push_back(t);
@@ -108,7 +109,7 @@ private:
 
     bool merge(std::uint32_t v, std::uint32_t u);
     bool keeps_faces(std::uint32_t v, std::uint32_t u) const;
-    bool spans_well(std::uint32_t v, std::uint32_t u) const;
+    float rise_m(std::uint32_t v, std::uint32_t u) const;
     bool lies_well(std::uint32_t p, const Triangle& on, const Shares& at) const;
     Shares shares(std::uint32_t p, const Triangle& on) const;
 
@@ -117,6 +118,7 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<std::vector<std::uint32_t>> held_;   // of each triangle: points that were left out on it
     std::vector<std::vector<std::uint32_t>> stars_;  // of each point: triangles around it
+    std::vector<float> risen_m_;                     // of each triangle: over the snow between points, at most
     std::vector<float> over_m_;  // of each point
     std::vector<bool> rested_;
     std::vector<std::pair<std::uint32_t, int>> around_;
@@ -150,9 +152,11 @@ bool Coarser::lies_well(std::uint32_t p, const Triangle& on, const Shares& at) c
     return true;
 }
 
-// Between points too: where edges from u, as they would be, cross those from v, they lie as low.
-bool Coarser::spans_well(std::uint32_t v, std::uint32_t u) const
+// How far triangles would come to lie over those before them between points: where edges from u, as they would be, cross those
+// from v. Below them there is room.
+float Coarser::rise_m(std::uint32_t v, std::uint32_t u) const
 {
+    float rise = 0.0f;
     const auto at = [&](std::uint32_t i) { return vec2(caps_->points[i].base_m.x, caps_->points[i].base_m.z); };
     const auto cross = [](const vec2& s, const vec2& t) { return s.x * t.y - s.y * t.x; };
     for (const auto& [w, sides] : around_) {
@@ -167,11 +171,11 @@ bool Coarser::spans_well(std::uint32_t v, std::uint32_t u) const
             for (const SnowShape& shape : shapes_) {
                 const auto& p = shape.positions;
                 const float over = glm::mix(p[u].y, p[w].y, s) - glm::mix(p[v].y, p[x].y, t);
-                if (!(over <= 0.5f * over_m_[v]) || !(over >= -kUnder * over_m_[v])) return false;
+                rise = std::max({rise, over, -over / kUnder});
             }
         }
     }
-    return true;
+    return rise;
 }
 
 bool Coarser::keeps_faces(std::uint32_t v, std::uint32_t u) const
@@ -214,7 +218,12 @@ bool Coarser::merge(std::uint32_t v, std::uint32_t u)
     const auto shared = std::count_if(around_.begin(), around_.end(), [&](const auto& n) {
         return n.first != u && std::any_of(stars_[u].begin(), stars_[u].end(), [&](std::uint32_t t) { return has(t, n.first); });
     });
-    if (shared != going || !keeps_faces(v, u) || !spans_well(v, u)) return false;
+    if (shared != going || !keeps_faces(v, u)) return false;
+    // Summed up, for edges are compared with those before them.
+    float rise = 0.0f;
+    for (const std::uint32_t t : stars_[v]) rise = std::max(rise, risen_m_[t]);
+    rise += rise_m(v, u);
+    if (!(rise <= over_m_[v])) return false;
     std::vector<std::uint32_t> resting{v};
     std::vector<std::pair<std::uint32_t, Triangle>> stay;
     for (const std::uint32_t t : stars_[v]) {
@@ -259,6 +268,7 @@ bool Coarser::merge(std::uint32_t v, std::uint32_t u)
     stars_[v].clear();
     for (const auto& [t, after] : stay) {
         triangles_[t] = after;
+        risen_m_[t] = rise;
         for (const std::uint32_t corner : after.corner) stars_[corner].push_back(t);
     }
     for (std::size_t i = 0; i < resting.size(); ++i) held_[stay[homes[i]].first].push_back(resting[i]);
@@ -277,7 +287,7 @@ std::vector<std::vector<std::uint32_t>> Coarser::points() const
 
 float casters_over_m(float away_m)
 {
-    return std::clamp(0.00038f * away_m, 0.002f, 0.012f);
+    return std::clamp(0.00038f * away_m, 0.0025f, 0.012f);
 }
 
 void add_casters(SnowCaps& caps, const std::vector<vec3>& eyes_m)
