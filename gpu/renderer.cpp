@@ -461,7 +461,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         lamp_shadows.forget();
     }
     if (snow && snow->lay(frame)) {
-        scene->lay(device, snow->vertices(), snow->covered(), snow->is_deep());
+        scene->lay(device, snow->vertices(), snow->covered());
         depth_maps.shadow_valid.fill(false);
     }
     const Light* scene_sun = nullptr;

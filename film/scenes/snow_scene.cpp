@@ -73,7 +73,6 @@ std::shared_ptr<const scene::SnowCaps> prepare_snow(const scene::Scene& scene,
         const scene::Tracer tracer(cut ? *cut : plain);
         found = scene::build_snow_caps(tracer, options);
         scene::add_casters(*found, eyes_m);
-        scene::add_deep(*found, eyes_m);
         if (cache.on()) {
             try {
                 const std::vector<std::byte> bytes = scene::snow_caps_to_bytes(*found);

@@ -90,16 +90,6 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
         covered_.push_back({from.instance, from.primitive, std::vector<std::uint8_t>(last)});
         covering_.push_back(static_cast<std::uint32_t>(&from - caps_->parts.data()));
     }
-    for (std::size_t i = 0; i < caps_->parts.size(); ++i) {
-        const scene::SnowCaps::Part& from = caps_->parts[i];
-        if (from.deep.empty()) continue;
-        Overlay::Part part = overlay_.parts[i];
-        part.first_index = static_cast<std::uint32_t>(overlay_.indices.size());
-        part.index_count = static_cast<std::uint32_t>(from.deep.size());
-        part.stands = Stands::Deep;
-        overlay_.indices.insert(overlay_.indices.end(), from.deep.begin(), from.deep.end());
-        overlay_.parts.push_back(part);
-    }
     corners_.reserve(caps_->indices.size());
     for (const std::uint32_t corner : caps_->indices) corners_.push_back(caps_->corner_points[corner]);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> ways;
@@ -198,12 +188,9 @@ bool SnowBody::lay(const Frame& frame)
     laid_ = key;
     lies_ = false;
     if (!key.wanted) return lay_before;
-    const std::vector<float> depth_m = depths(frame);
-    const scene::SnowShape shape = scene::snow_shape(*caps_, depth_m);
+    const scene::SnowShape shape = scene::snow_shape(*caps_, depths(frame));
     lies_ = shape.thickest_m > kThin_m;
     if (!lies_) return lay_before;
-    const bool coarser = std::any_of(caps_->parts.begin(), caps_->parts.end(), [](const scene::SnowCaps::Part& part) { return !part.deep.empty(); });
-    deep_ = coarser && *std::min_element(depth_m.begin(), depth_m.end()) >= scene::SnowCaps::kDeep_m;
     lift_m_ = 0.0f;
     const std::size_t corners = caps_->corner_points.size();
     for (std::size_t i = 0; i < caster_points_.size(); ++i)

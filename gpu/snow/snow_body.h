@@ -34,8 +34,6 @@ public:
     std::span<const Vertex> vertices() const;
     /// What of the scene lies below it: the same triangles of the caps are seen from above, and throw its shadows.
     std::span<const Covered> covered() const;
-    /// Deep enough everywhere for the coarser triangles of deep snow.
-    bool is_deep() const { return lies_ && deep_; }
     /// An eye there stands in no snow, nor just below it.
     bool is_below(const glm::vec3& eye_m) const;
     /// The farthest that a vertex stands over its ground; 0 without any.
@@ -57,7 +55,6 @@ private:
     std::vector<std::uint32_t> caster_points_;  // of the overlay's last vertices
     std::optional<Key> laid_;
     bool lies_ = false;
-    bool deep_ = false;
     float lift_m_ = 0.0f;
     std::vector<Covered> covered_;
     std::vector<std::uint32_t> covering_;  // which part of the caps says so of each

@@ -216,7 +216,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
         draw.instance_id = part.instance_id;
         draw.overlay = true;
         draw.stands = part.stands;
-        draw.shown = part.stands != Stands::Coarse && part.stands != Stands::Deep;
+        draw.shown = part.stands != Stands::Coarse;
         const auto own = std::span(overlay.indices).subspan(part.first_index, part.index_count);
         if (!own.empty()) {
             const auto [least, most] = std::minmax_element(own.begin(), own.end());
@@ -330,7 +330,7 @@ void GpuScene::upload_looks(const Device& device, const Scene& scene)
     upload_buffer(device, *instance_looks_, std::as_bytes(std::span(texels)));
 }
 
-void GpuScene::lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered, bool deep)
+void GpuScene::lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered)
 {
     for (auto& triangles : covered_) triangles.clear();
     std::map<std::pair<std::uint32_t, std::uint32_t>, const Covered*> below;
@@ -343,9 +343,7 @@ void GpuScene::lay(const Device& device, std::span<const Vertex> overlay, std::s
     overlaid_ = !overlay.empty();
     std::size_t next = 0;
     for (Draw& draw : draws_) {
-        if (!draw.overlay) continue;
-        draw.index_count = overlaid_ ? overlay_counts_[next++] : 0;
-        draw.shown = draw.stands != Stands::Coarse && (draw.stands == Stands::Deep) == deep;
+        if (draw.overlay) draw.index_count = overlaid_ ? overlay_counts_[next++] : 0;
     }
     if (overlaid_) upload_vertices(device, overlay, first_overlay_);
 }

@@ -24,8 +24,8 @@ const std::vector<VertexAttribute>& vertex_attributes();
 VertexAttribute position_attribute();
 
 /// Of what is laid over a scene: seen and in all maps of the sun; or seen, and in those alone in which its coarser part
-/// would shadow it; or that one, which is not seen. Deep: what is seen in place of the others in some frames, and casts none.
-enum class Stands { Alone, Fine, Coarse, Deep };
+/// would shadow it; or that one, which is not seen.
+enum class Stands { Alone, Fine, Coarse };
 
 /// One primitive of one instance.
 struct Draw {
@@ -135,8 +135,8 @@ public:
     /// Moves those vertices: by number of a bending vertex. The device must not be drawing.
     void move_own(const Device& device, std::span<const MovedVertex> moved);
     /// Shapes the overlay of the frames that follow; empty: there is none in them. The device must not
-    /// be drawing. deep: of what is seen, the parts that stand for the others (Stands::Deep).
-    void lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered = {}, bool deep = false);
+    /// be drawing.
+    void lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered = {});
     bool overlaid() const { return overlaid_; }
     /// By the triangles of a draw, from where the overlay hides them (Covered); empty: from nowhere.
     std::span<const std::uint8_t> covered(const Draw& draw) const

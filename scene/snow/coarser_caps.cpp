@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
-
-#include "formulas/weather/snow_body.h"
 
 namespace petrichor::scene {
 namespace {
@@ -21,17 +18,11 @@ constexpr float kUnder = 4.0f;        // times as far below the snow as over it,
 constexpr float kAlong = 8.0f;        // .. and along it
 // Of snow under which that holds; between them it nearly does.
 constexpr std::array kDepths_m{0.02f, 0.06f, 0.15f, 0.32f};
-// The same of what is seen, where stones below no longer show.
-constexpr std::array kSeenDepths_m{SnowCaps::kDeep_m, 0.1f, 0.15f, 0.25f, 0.4f};
-constexpr float kSeenOff_m = 0.0005f, kSeenPerMetre = 0.0005f, kMostSeenOff_m = 0.02f;  // off it: less than half a pixel
-constexpr float kBend = 0.04f;        // sine that normals between corners turn by
-constexpr float kOtherColor = 0.02f;  // of colours, masks and tangents
-constexpr float kOtherCode = 0.03f;   // of what a vertex tells of its depth
 constexpr std::size_t kMostStar = 24;
 constexpr std::uint32_t kGone = 0xffffffffu;
 
 struct Triangle {
-    std::array<std::uint32_t, 3> corner{kGone, kGone, kGone};
+    std::array<std::uint32_t, 3> corner{kGone, kGone, kGone};  // points
     std::uint32_t part = 0;
     bool gone() const { return corner[0] == kGone; }
 };
@@ -45,29 +36,27 @@ struct Shares {
 // far from each other in turn, so that triangles grow evenly.
 class Coarser {
 public:
-    // What is seen keeps its normals and textures, and its corners; of what casts alone a corner is a point.
-    Coarser(const SnowCaps& caps, const std::vector<vec3>& eyes_m, bool seen) : caps_(&caps), seen_(seen)
+    Coarser(const SnowCaps& caps, const std::vector<vec3>& eyes_m) : caps_(&caps)
     {
-        for (const float depth : seen ? std::span<const float>(kSeenDepths_m) : std::span<const float>(kDepths_m))
+        for (const float depth : kDepths_m)
             shapes_.push_back(snow_shape(caps, std::vector<float>(caps.points.size(), depth)));
         for (std::uint32_t i = 0; i < caps.parts.size(); ++i) {
             const SnowCaps::Part& part = caps.parts[i];
             for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
                 const std::uint32_t* index = caps.indices.data() + part.first_index + k;
-                triangles_.push_back({{index[0], index[1], index[2]}, i});
-                if (seen_) continue;
-                for (std::uint32_t& corner : triangles_.back().corner) corner = caps.corner_points[corner];
+                triangles_.push_back({{caps.corner_points[index[0]], caps.corner_points[index[1]], caps.corner_points[index[2]]}, i});
             }
         }
         held_.resize(triangles_.size());
+        risen_m_.resize(triangles_.size());
         stars_.resize(caps.points.size());
         for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-            for (const std::uint32_t corner : triangles_[t].corner) stars_[point(corner)].push_back(t);
+            for (const std::uint32_t corner : triangles_[t].corner) stars_[corner].push_back(t);
         over_m_.reserve(caps.points.size());
         for (const SnowCaps::Point& p : caps.points) {
             float away = eyes_m.empty() ? 0.0f : 1.0e30f;
             for (const vec3& eye : eyes_m) away = std::min(away, glm::distance(eye, p.base_m));
-            over_m_.push_back(seen ? std::clamp(kSeenPerMetre * away, kSeenOff_m, kMostSeenOff_m) : casters_over_m(away));
+            over_m_.push_back(casters_over_m(away));
         }
     }
 
@@ -82,18 +71,15 @@ public:
         }
     }
 
-    std::vector<std::vector<std::uint32_t>> corners() const;
+    std::vector<std::vector<std::uint32_t>> points() const;
 
 private:
-    std::uint32_t point(std::uint32_t corner) const { return seen_ ? caps_->corner_points[corner] : corner; }
-
     // Ends of the edges at a point, with the triangles at each.
     bool neighbours_of(std::uint32_t v)
     {
         around_.clear();
         for (const std::uint32_t t : stars_[v]) {
-            for (const std::uint32_t corner : triangles_[t].corner) {
-                const std::uint32_t p = point(corner);
+            for (const std::uint32_t p : triangles_[t].corner) {
                 if (p == v) continue;
                 const auto found = std::find_if(around_.begin(), around_.end(), [p](const auto& n) { return n.first == p; });
                 if (found == around_.end()) around_.emplace_back(p, 1);
@@ -123,17 +109,16 @@ private:
 
     bool merge(std::uint32_t v, std::uint32_t u);
     bool keeps_faces(std::uint32_t v, std::uint32_t u) const;
-    bool spans_well(std::uint32_t v, std::uint32_t u) const;
+    float rise_m(std::uint32_t v, std::uint32_t u) const;
     bool lies_well(std::uint32_t p, const Triangle& on, const Shares& at) const;
-    bool looks_well(std::uint32_t corner, const Triangle& on, const Shares& at) const;
     Shares shares(std::uint32_t p, const Triangle& on) const;
 
     const SnowCaps* caps_;
-    bool seen_;
     std::vector<SnowShape> shapes_;
     std::vector<Triangle> triangles_;
-    std::vector<std::vector<std::uint32_t>> held_;   // of each triangle: corners that were left out on it
+    std::vector<std::vector<std::uint32_t>> held_;   // of each triangle: points that were left out on it
     std::vector<std::vector<std::uint32_t>> stars_;  // of each point: triangles around it
+    std::vector<float> risen_m_;                     // of each triangle: over the snow between points, at most
     std::vector<float> over_m_;  // of each point
     std::vector<bool> rested_;
     std::vector<std::pair<std::uint32_t, int>> around_;
@@ -143,7 +128,7 @@ private:
 Shares Coarser::shares(std::uint32_t p, const Triangle& on) const
 {
     const auto at = [&](std::uint32_t i) { return vec2(caps_->points[i].base_m.x, caps_->points[i].base_m.z); };
-    const vec2 a = at(point(on.corner[0])), b = at(point(on.corner[1])), c = at(point(on.corner[2])), x = at(p);
+    const vec2 a = at(on.corner[0]), b = at(on.corner[1]), c = at(on.corner[2]), x = at(p);
     const auto cross = [](const vec2& s, const vec2& t) { return s.x * t.y - s.y * t.x; };
     const float whole = cross(b - a, c - a);
     if (!(std::abs(whole) > 0.0f)) return {-1.0e9f, 0.0f, 0.0f};
@@ -156,46 +141,22 @@ Shares Coarser::shares(std::uint32_t p, const Triangle& on) const
 
 bool Coarser::lies_well(std::uint32_t p, const Triangle& on, const Shares& at) const
 {
-    const std::array t{point(on.corner[0]), point(on.corner[1]), point(on.corner[2])};
-    const float under = seen_ ? 1.0f : kUnder, along = seen_ ? 2.0f : kAlong;
+    const auto& t = on.corner;
     for (const SnowShape& shape : shapes_) {
         const auto mixed = [&](const auto& values) { return at.a * values[t[0]] + at.b * values[t[1]] + at.c * values[t[2]]; };
         const vec3 away = mixed(shape.positions) - shape.positions[p];
         const vec3& normal = shape.normals[p];
         const float over = glm::dot(away, normal);
-        if (!(over <= over_m_[p]) || !(over >= -under * over_m_[p]) || !(glm::length(away) <= along * over_m_[p])) return false;
-        if (!seen_) continue;
-        const vec3 bent = mixed(shape.normals);
-        if (!(glm::length(glm::cross(bent, normal)) <= kBend * glm::length(bent))) return false;
-        const auto code = [&](std::uint32_t i) { return shared::snow_body_code(shape.deep_m[i]); };
-        if (!(std::abs(at.a * code(t[0]) + at.b * code(t[1]) + at.c * code(t[2]) - code(p)) <= kOtherCode)) return false;
+        if (!(over <= over_m_[p]) || !(over >= -kUnder * over_m_[p]) || !(glm::length(away) <= kAlong * over_m_[p])) return false;
     }
     return true;
 }
 
-bool Coarser::looks_well(std::uint32_t corner, const Triangle& on, const Shares& at) const
+// How far triangles would come to lie over those before them between points: where edges from u, as they would be, cross those
+// from v. Below them there is room.
+float Coarser::rise_m(std::uint32_t v, std::uint32_t u) const
 {
-    const Primitive& p = caps_->parts[on.part].source;
-    const std::uint32_t first = caps_->parts[on.part].first_corner;
-    const std::uint32_t i = corner - first, a = on.corner[0] - first, b = on.corner[1] - first, c = on.corner[2] - first;
-    const auto mixed = [&](const auto& values) { return at.a * values[a] + at.b * values[b] + at.c * values[c]; };
-    const auto far = [](const glm::vec4& x, const glm::vec4& y) {
-        const glm::vec4 d = glm::abs(x - y);
-        return std::max(std::max(d.x, d.y), std::max(d.z, d.w)) > kOtherColor;
-    };
-    if (far(mixed(p.colors), p.colors[i]) || far(mixed(p.tangents), p.tangents[i])) return false;
-    // Metres of the ground that a texture moves by.
-    const float reach_m = std::max(glm::distance(p.positions[a], p.positions[b]), glm::distance(p.positions[a], p.positions[c]));
-    for (const auto* uv : {&p.uv0, &p.uv1}) {
-        const float reach = std::max(glm::distance((*uv)[a], (*uv)[b]), glm::distance((*uv)[a], (*uv)[c]));
-        if (glm::distance(mixed(*uv), (*uv)[i]) * reach_m > 4.0f * over_m_[point(corner)] * reach) return false;
-    }
-    return true;
-}
-
-// Between points too: where edges from u, as they would be, cross those from v, they lie as low.
-bool Coarser::spans_well(std::uint32_t v, std::uint32_t u) const
-{
+    float rise = 0.0f;
     const auto at = [&](std::uint32_t i) { return vec2(caps_->points[i].base_m.x, caps_->points[i].base_m.z); };
     const auto cross = [](const vec2& s, const vec2& t) { return s.x * t.y - s.y * t.x; };
     for (const auto& [w, sides] : around_) {
@@ -210,11 +171,11 @@ bool Coarser::spans_well(std::uint32_t v, std::uint32_t u) const
             for (const SnowShape& shape : shapes_) {
                 const auto& p = shape.positions;
                 const float over = glm::mix(p[u].y, p[w].y, s) - glm::mix(p[v].y, p[x].y, t);
-                if (!(over <= 0.5f * over_m_[v]) || !(over >= -(seen_ ? 0.5f : kUnder) * over_m_[v])) return false;
+                rise = std::max({rise, over, -over / kUnder});
             }
         }
     }
-    return true;
+    return rise;
 }
 
 bool Coarser::keeps_faces(std::uint32_t v, std::uint32_t u) const
@@ -223,7 +184,7 @@ bool Coarser::keeps_faces(std::uint32_t v, std::uint32_t u) const
         std::array<std::uint32_t, 3> before{}, after{};
         bool both = false;
         for (std::size_t c = 0; c < 3; ++c) {
-            before[c] = after[c] = point(triangles_[t].corner[c]);
+            before[c] = after[c] = triangles_[t].corner[c];
             both = both || before[c] == u;
             if (before[c] == v) after[c] = u;
         }
@@ -250,51 +211,34 @@ bool Coarser::merge(std::uint32_t v, std::uint32_t u)
     // Neighbours that both have are corners of the triangles that go.
     const auto has = [&](std::uint32_t t, std::uint32_t p) {
         const auto& corner = triangles_[t].corner;
-        return point(corner[0]) == p || point(corner[1]) == p || point(corner[2]) == p;
+        return corner[0] == p || corner[1] == p || corner[2] == p;
     };
     const auto going = std::count_if(stars_[v].begin(), stars_[v].end(), [&](std::uint32_t t) { return has(t, u); });
     if (static_cast<std::size_t>(going) == stars_[v].size()) return false;
     const auto shared = std::count_if(around_.begin(), around_.end(), [&](const auto& n) {
         return n.first != u && std::any_of(stars_[u].begin(), stars_[u].end(), [&](std::uint32_t t) { return has(t, n.first); });
     });
-    if (shared != going || !keeps_faces(v, u) || !spans_well(v, u)) return false;
-    // What each corner at v becomes: where it has none at u, a seam goes another way.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> become;
-    const auto new_corner = [&](std::uint32_t corner) {
-        return std::find_if(become.begin(), become.end(), [corner](const auto& pair) { return pair.first == corner; });
-    };
-    const auto corner_at = [&](std::uint32_t t, std::uint32_t p) {
-        const auto& corner = triangles_[t].corner;
-        return *std::find_if(corner.begin(), corner.end(), [&](std::uint32_t c) { return point(c) == p; });
-    };
-    std::vector<std::uint32_t> resting;
-    for (const std::uint32_t t : stars_[v]) {
-        if (!has(t, u)) continue;
-        const std::uint32_t from = corner_at(t, v), to = corner_at(t, u);
-        const auto found = new_corner(from);
-        if (found != become.end() && found->second != to) return false;
-        if (found != become.end()) continue;
-        become.emplace_back(from, to);
-        resting.push_back(from);
-    }
+    if (shared != going || !keeps_faces(v, u)) return false;
+    // Summed up, for edges are compared with those before them.
+    float rise = 0.0f;
+    for (const std::uint32_t t : stars_[v]) rise = std::max(rise, risen_m_[t]);
+    rise += rise_m(v, u);
+    if (!(rise <= over_m_[v])) return false;
+    std::vector<std::uint32_t> resting{v};
     std::vector<std::pair<std::uint32_t, Triangle>> stay;
     for (const std::uint32_t t : stars_[v]) {
         resting.insert(resting.end(), held_[t].begin(), held_[t].end());
         if (has(t, u)) continue;
-        const auto found = new_corner(corner_at(t, v));
-        if (found == become.end()) return false;
         stay.emplace_back(t, triangles_[t]);
-        std::replace(stay.back().second.corner.begin(), stay.back().second.corner.end(), found->first, found->second);
+        std::replace(stay.back().second.corner.begin(), stay.back().second.corner.end(), v, u);
     }
     std::vector<std::size_t> homes;
-    for (const std::uint32_t corner : resting) {
+    for (const std::uint32_t p : resting) {
         float best = -1.0e30f;
         std::size_t home = stay.size();
         Shares at;
         for (std::size_t s = 0; s < stay.size(); ++s) {
-            const SnowCaps::Part& part = caps_->parts[stay[s].second.part];
-            if (seen_ && (corner < part.first_corner || corner - part.first_corner >= part.source.positions.size())) continue;
-            const Shares here = shares(point(corner), stay[s].second);
+            const Shares here = shares(p, stay[s].second);
             const float inside = std::min(here.a, std::min(here.b, here.c));
             if (inside > best) {
                 best = inside;
@@ -308,13 +252,12 @@ bool Coarser::merge(std::uint32_t v, std::uint32_t u)
         const float sum = at.a + at.b + at.c;
         if (!(sum > 0.0f)) return false;
         at = {at.a / sum, at.b / sum, at.c / sum};
-        if (!lies_well(point(corner), stay[home].second, at) || (seen_ && !looks_well(corner, stay[home].second, at))) return false;
+        if (!lies_well(p, stay[home].second, at)) return false;
         homes.push_back(home);
     }
     for (const std::uint32_t t : stars_[v]) {
         held_[t].clear();
-        for (const std::uint32_t corner : triangles_[t].corner) {
-            const std::uint32_t p = point(corner);
+        for (const std::uint32_t p : triangles_[t].corner) {
             rested_[p] = true;
             if (p == v) continue;
             auto& star = stars_[p];
@@ -325,43 +268,35 @@ bool Coarser::merge(std::uint32_t v, std::uint32_t u)
     stars_[v].clear();
     for (const auto& [t, after] : stay) {
         triangles_[t] = after;
-        for (const std::uint32_t corner : after.corner) stars_[point(corner)].push_back(t);
+        risen_m_[t] = rise;
+        for (const std::uint32_t corner : after.corner) stars_[corner].push_back(t);
     }
     for (std::size_t i = 0; i < resting.size(); ++i) held_[stay[homes[i]].first].push_back(resting[i]);
     return true;
 }
 
-std::vector<std::vector<std::uint32_t>> Coarser::corners() const
+std::vector<std::vector<std::uint32_t>> Coarser::points() const
 {
-    std::vector<std::vector<std::uint32_t>> corners(caps_->parts.size());
+    std::vector<std::vector<std::uint32_t>> points(caps_->parts.size());
     for (const Triangle& t : triangles_)
-        if (!t.gone()) corners[t.part].insert(corners[t.part].end(), t.corner.begin(), t.corner.end());
-    return corners;
+        if (!t.gone()) points[t.part].insert(points[t.part].end(), t.corner.begin(), t.corner.end());
+    return points;
 }
 
 }  // namespace
 
 float casters_over_m(float away_m)
 {
-    return std::clamp(0.00038f * away_m, 0.002f, 0.012f);
+    return std::clamp(0.00038f * away_m, 0.0025f, 0.012f);
 }
 
 void add_casters(SnowCaps& caps, const std::vector<vec3>& eyes_m)
 {
     if (caps.empty()) return;
-    Coarser coarser(caps, eyes_m, false);
+    Coarser coarser(caps, eyes_m);
     coarser.run();
-    std::vector<std::vector<std::uint32_t>> corners = coarser.corners();
-    for (std::size_t i = 0; i < corners.size(); ++i) caps.parts[i].casters = std::move(corners[i]);
-}
-
-void add_deep(SnowCaps& caps, const std::vector<vec3>& eyes_m)
-{
-    if (caps.empty()) return;
-    Coarser coarser(caps, eyes_m, true);
-    coarser.run();
-    std::vector<std::vector<std::uint32_t>> corners = coarser.corners();
-    for (std::size_t i = 0; i < corners.size(); ++i) caps.parts[i].deep = std::move(corners[i]);
+    std::vector<std::vector<std::uint32_t>> points = coarser.points();
+    for (std::size_t i = 0; i < points.size(); ++i) caps.parts[i].casters = std::move(points[i]);
 }
 
 }  // namespace petrichor::scene

@@ -19,10 +19,6 @@ float casters_over_m(float away_m);
 ///   source  half-edge collapses, Kobbelt et al. 1998, A General Framework for Mesh Decimation, Graphics Interface
 void add_casters(SnowCaps& caps, const std::vector<glm::vec3>& eyes_m);
 
-/// Coarser triangles for eyes over deep snow, SnowCaps::Part::deep: as above, of the same corners, with less than half a pixel
-/// of 1280 between it and where it lay, and its normals, textures and colours.
-void add_deep(SnowCaps& caps, const std::vector<glm::vec3>& eyes_m);
-
 }  // namespace petrichor::scene
 
 #endif

@@ -31,7 +31,6 @@ struct SnowCaps {
     /// Depths that `fill_m` is told for; between them and 0 it is linear.
     static constexpr std::size_t kFills = 4;
     static constexpr std::array<float, kFills> kFillDepths_m{0.03f, 0.07f, 0.14f, 0.28f};
-    static constexpr float kDeep_m = 0.07f;  ///< snow from here on hides the stones below it
     struct Point {
         glm::vec3 base_m{0.0f};       ///< on the scene
         float share = 0.0f;           ///< of the depth on open ground, by shelter and slope ..
@@ -67,8 +66,6 @@ struct SnowCaps {
         Primitive source;  ///< vertices of its corners, in the world; no indices
         /// Of points, 3 a triangle: what throws its shadow, coarser (add_casters); empty: the part itself does.
         std::vector<std::uint32_t> casters;
-        /// Of corners, 3 a triangle: what is seen where all snow is kDeep_m deep, coarser (add_deep); empty: the part itself is.
-        std::vector<std::uint32_t> deep;
     };
     std::vector<Point> points;
     std::vector<std::uint32_t> corner_points;  ///< of each vertex of all parts, in their order

@@ -9,7 +9,7 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x64706163;  // "capd"
+constexpr std::uint32_t kMagic = 0x65706163;  // "cape"
 static_assert(sizeof(SnowCaps::Point) == 31 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
@@ -72,10 +72,7 @@ bool fits(const SnowCaps& caps, const SnowCaps::Part& part, const Scene& scene)
         return below < own || below == SnowCaps::kUncovered;
     });
     const bool casts = std::all_of(part.casters.begin(), part.casters.end(), [&caps](std::uint32_t point) { return point < caps.points.size(); });
-    const bool seen = std::all_of(part.deep.begin(), part.deep.end(), [&](std::uint32_t corner) {
-        return corner >= part.first_corner && corner - part.first_corner < corners;
-    });
-    return all_there && casts && seen && part.deep.size() % 3 == 0 && part.casters.size() % 3 == 0 && part.material < scene.materials.size() &&
+    return all_there && casts && part.casters.size() % 3 == 0 && part.material < scene.materials.size() &&
            part.first_index <= caps.indices.size() &&
            part.index_count <= caps.indices.size() - part.first_index &&
            part.first_corner <= caps.corner_points.size() &&
@@ -109,7 +106,6 @@ std::vector<std::byte> snow_caps_to_bytes(const SnowCaps& caps)
         to.list(p.colors);
         to.list(p.weather);
         to.list(part.casters);
-        to.list(part.deep);
     }
     return std::move(to.bytes);
 }
@@ -140,7 +136,6 @@ std::optional<SnowCaps> snow_caps_from_bytes(std::span<const std::byte> bytes, c
         p.colors = from.list<glm::vec4>();
         p.weather = from.list<glm::vec4>();
         part.casters = from.list<std::uint32_t>();
-        part.deep = from.list<std::uint32_t>();
         if (!fits(caps, part, scene)) return {};
         caps.parts.push_back(std::move(part));
     }

@@ -213,40 +213,6 @@ TEST_F(SnowBodyTest, CoarserCastersThrowItsShadows)
     EXPECT_GT(others(none), 20) << "its shadow is theirs";
 }
 
-// Deep snow is seen by coarser triangles, thin snow by its own.
-TEST_F(SnowBodyTest, DeepSnowLooksAsItsOwnTrianglesDo)
-{
-    auto coarser = std::make_shared<scene::SnowCaps>(*caps);
-    scene::add_deep(*coarser, {});
-    const auto others = [&](float depth) {
-        Frame f = frame(depth);
-        f.camera = look({2, 1.6f, 2.5f}, {0, 0.4f, 0});
-        f.settings.exposure = 1e-5f;
-        renderer->load(scene, {}, caps);
-        const RenderResult own = renderer->render(f);
-        renderer->load(scene, {}, coarser);
-        const RenderResult coarse = renderer->render(f);
-        int count = 0;
-        float off_m = 0.0f;
-        for (int y = 0; y < kSize; ++y) {
-            for (int x = 0; x < kSize; ++x) {
-                const float d = std::abs(aov(own, "depth", x, y) - aov(coarse, "depth", x, y));
-                count += d > 0.0f ? 1 : 0;
-                if (d < 0.1f) off_m = std::max(off_m, d);  // more: the silhouette of the post
-            }
-        }
-        EXPECT_LT(off_m, 0.005f);
-        return count;
-    };
-    EXPECT_EQ(others(0.06f), 0);
-    EXPECT_GT(others(0.15f), 20) << "other triangles";
-    SnowBody body(coarser);
-    body.lay(frame(0.06f));
-    EXPECT_FALSE(body.is_deep());
-    body.lay(frame(0.15f));
-    EXPECT_TRUE(body.is_deep());
-}
-
 // A bank has the name of what it lies on, and covers none of it; the caps beside it do.
 TEST(SnowBodyCovers, WhatABankLiesOnToo)
 {

@@ -1,4 +1,4 @@
-// Coarser triangles of snow, for its shadows and for eyes over deep snow: fewer, where it lies, and without cracks.
+// Coarser triangles that throw the shadows of snow: fewer, where it lies, and without cracks.
 #include "scene/snow/coarser_caps.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,6 @@ SnowCaps caps_of(const Scene& scene)
     const Tracer tracer(triangles);
     SnowCaps caps = build_snow_caps(tracer, {});
     add_casters(caps, {});
-    add_deep(caps, {});
     return caps;
 }
 
@@ -113,46 +112,6 @@ TEST(SnowCasters, HaveNoCracks)
     EXPECT_GT(borders, 20);
 }
 
-// What is seen of deep snow: its triangles face as it did, between corners of the same part, and no edge has lost its other side.
-TEST(DeepSnow, HasFewerTrianglesThatLieAndFaceAsItDid)
-{
-    const SnowCaps caps = caps_of(yard());
-    std::size_t all = 0;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> fine, coarse;
-    const auto add = [](auto& ways, std::uint32_t a, std::uint32_t b) { ways[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1; };
-    for (std::size_t k = 0; k < caps.indices.size(); ++k)
-        add(fine, caps.corner_points[caps.indices[k]], caps.corner_points[caps.indices[k % 3 == 2 ? k - 2 : k + 1]]);
-    std::vector<bool> border(caps.points.size(), false);
-    for (const auto& [edge, way] : fine)
-        if (way != 0) border[edge.first] = border[edge.second] = true;
-    for (const SnowCaps::Part& part : caps.parts) {
-        all += part.deep.size() / 3;
-        for (std::size_t k = 0; k < part.deep.size(); ++k) {
-            ASSERT_LT(part.deep[k] - part.first_corner, part.source.positions.size());
-            add(coarse, caps.corner_points[part.deep[k]], caps.corner_points[part.deep[k % 3 == 2 ? k - 2 : k + 1]]);
-        }
-    }
-    EXPECT_LT(all, caps.indices.size() / 3 * 9 / 10);
-    for (const auto& [edge, way] : coarse) {
-        EXPECT_LE(std::abs(way), 1);
-        EXPECT_TRUE(way == 0 || (border[edge.first] && border[edge.second]));
-    }
-    for (const float depth : {SnowCaps::kDeep_m, 0.12f, 0.3f}) {
-        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), depth));
-        const auto at = [&](std::uint32_t corner) { return shape.positions[caps.corner_points[corner]]; };
-        float farthest = 0.0f;
-        for (std::size_t i = 0; i < caps.indices.size(); i += 7) {
-            const vec3 p = at(caps.indices[i]);
-            float nearest = 1.0e9f;
-            for (const SnowCaps::Part& part : caps.parts)
-                for (std::size_t k = 0; k < part.deep.size(); k += 3)
-                    nearest = std::min(nearest, away_m(p, at(part.deep[k]), at(part.deep[k + 1]), at(part.deep[k + 2])));
-            farthest = std::max(farthest, nearest);
-        }
-        EXPECT_LT(farthest, 0.001f) << depth;
-    }
-}
-
 TEST(SnowCasters, AreReadBackBitForBit)
 {
     const Scene scene = yard();
@@ -160,16 +119,10 @@ TEST(SnowCasters, AreReadBackBitForBit)
     const auto bytes = snow_caps_to_bytes(caps);
     const auto back = snow_caps_from_bytes(bytes, scene);
     ASSERT_TRUE(back.has_value());
-    for (std::size_t i = 0; i < caps.parts.size(); ++i) {
-        EXPECT_EQ(back->parts[i].casters, caps.parts[i].casters);
-        EXPECT_EQ(back->parts[i].deep, caps.parts[i].deep);
-    }
+    for (std::size_t i = 0; i < caps.parts.size(); ++i) EXPECT_EQ(back->parts[i].casters, caps.parts[i].casters);
     SnowCaps broken = caps;
     broken.parts[0].casters[1] = static_cast<std::uint32_t>(caps.points.size());
     EXPECT_FALSE(snow_caps_from_bytes(snow_caps_to_bytes(broken), scene)) << "a point that is not there";
-    SnowCaps other = caps;
-    other.parts[0].deep[2] = static_cast<std::uint32_t>(caps.corner_points.size());
-    EXPECT_FALSE(snow_caps_from_bytes(snow_caps_to_bytes(other), scene)) << "a corner of another part";
     EXPECT_EQ(snow_caps_to_bytes(caps_of(scene)), bytes) << "made again";
     SnowCaps none;
     add_casters(none, {});
