@@ -114,7 +114,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 1) {
         const SnowCover s = snow_cover(a.x, a.y, 2.0f * a.z - 1.0f, 2.0f * a.w, b.x, b.y, b.z, b.w, 0.3f * c.x);
         const vec2 across = place_across(300.0f * vec2(a.x, a.y));
-        const SlopeRelief slopes = slope_relief(vec3(across.x, 40.0f * b.x, across.y), 3.0f * c.y * c.y);
+        // Within some hundred of its smallest cells: farther out a rounding of the place shows.
+        const SlopeRelief slopes = slope_relief(vec3(0.25f * across.x, 40.0f * b.x, 0.25f * across.y), 3.0f * c.y * c.y);
         return vec4(s.snow, s.melt,
                     snow_rests(2.0f * a.z - 1.0f) + mask_of_two(b.y, b.z, b.w) + snow_holds(slopes),
                     snow_mask_blurred(20.0f * c.y, vec2(0.1f + c.z, 2.0f * c.w)) +

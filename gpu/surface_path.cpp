@@ -9,7 +9,8 @@ SurfacePath chosen_surface_path(SurfacePath asked, const Device& device, const G
     // Users' own surfaces, textures of layers and marched shapes are the resolve's alone.
     if (scene.own_surfaces().any() || scene.layer_shares() || !scene.shapes().empty()) return SurfacePath::Visibility;
     if (asked != SurfacePath::Auto) return asked;
-    if (device.info().kind != "cpu") return SurfacePath::Fragment;
+    // The one GPU that was measured is faster so in every picture of the page, 1.3 to 2.2 times.
+    if (device.info().kind != "cpu") return SurfacePath::Visibility;
     // Later samples leave out the pixels that are known only there: FlightHelmet 0.82, truck_town 0.62 of
     // the time of fragments.
     if (adaptive) return SurfacePath::Visibility;

@@ -14,8 +14,7 @@ namespace petrichor::gpu {
 ///
 /// On a CPU, fragments are shaded in blocks of two by two whatever a triangle covers: where triangles
 /// are small the resolve wins, where they are large it pays for fetching corners at every pixel.
-/// Adaptive samples
-/// are the resolve's alone. The measurements are in docs/surface-paths.md; no GPU has been measured, there it is Fragment.
+/// Adaptive samples are the resolve's alone. On a GPU it is Visibility. The measurements are in docs/surface-paths.md.
 SurfacePath chosen_surface_path(SurfacePath asked, const Device& device, const GpuScene& scene,
                                 int width, int height, bool adaptive);
 

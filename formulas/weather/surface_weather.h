@@ -171,10 +171,11 @@ SHARED_FN SlopeRelief slope_relief(vec3 position_m, float width_m)
     const vec3 p = vec3(0.8f * position_m.x + 0.6f * position_m.z, 1.7f * position_m.y, 0.8f * position_m.z - 0.6f * position_m.x);
     const float terraces = variance_lost(width_m, 2.6f), steps = variance_lost(width_m, 1.5f);
     const float clods = variance_lost(width_m, 0.5f), tufts = variance_lost(width_m, 0.17f);
-    const float sum = 0.46f * sqrt(1.0f - terraces) * (endless_noise_3(p / 7.0f, 241u) - 0.5f) +
-                      0.54f * sqrt(1.0f - steps) * (endless_noise_3(p / 2.4f + 5.2f, 251u) - 0.5f) +
-                      0.54f * sqrt(1.0f - clods) * (endless_noise_3(p / 0.83f + 9.7f, 261u) - 0.5f) +
-                      0.46f * sqrt(1.0f - tufts) * (endless_noise_3(p / 0.29f + 2.6f, 271u) - 0.5f);
+    // Factors, no quotients: those differ between devices by more than far places can bear.
+    const float sum = 0.46f * sqrt(1.0f - terraces) * (endless_noise_3(p * (1.0f / 7.0f), 241u) - 0.5f) +
+                      0.54f * sqrt(1.0f - steps) * (endless_noise_3(p * (1.0f / 2.4f) + 5.2f, 251u) - 0.5f) +
+                      0.54f * sqrt(1.0f - clods) * (endless_noise_3(p * (1.0f / 0.83f) + 9.7f, 261u) - 0.5f) +
+                      0.46f * sqrt(1.0f - tufts) * (endless_noise_3(p * (1.0f / 0.29f) + 2.6f, 271u) - 0.5f);
     SlopeRelief relief;
     relief.flatter = sum / 0.2f;
     relief.lost = 0.21f * (terraces + tufts) + 0.29f * (steps + clods);
