@@ -10,7 +10,6 @@
 #include "base/hash.h"
 #include "film/data/source_fingerprint.h"
 #include "film/scenes/transport.h"
-#include "scene/snow/coarser_caps.h"
 #include "scene/snow/snow_caps_file.h"
 
 namespace petrichor::film {
@@ -72,7 +71,6 @@ std::shared_ptr<const scene::SnowCaps> prepare_snow(const scene::Scene& scene,
             holes ? std::optional<scene::Triangles>(std::in_place, scene, alphas) : std::nullopt;
         const scene::Tracer tracer(cut ? *cut : plain);
         found = scene::build_snow_caps(tracer, options);
-        scene::add_casters(*found, eyes_m);
         if (cache.on()) {
             try {
                 const std::vector<std::byte> bytes = scene::snow_caps_to_bytes(*found);

@@ -18,7 +18,6 @@ struct DepthView {
     glm::mat4 clip_from_world{1.0f};
     glm::mat4 map_from_world{1.0f};  ///< to (u, v, depth), each 0..1
     float texel_m = 0.0f;
-    float until_m = 0.0f;  ///< of a shadow cascade: how far from the eye it is asked
     AskedPart asked;  ///< no part of what view it is
 
     bool operator==(const DepthView& other) const

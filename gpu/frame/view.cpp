@@ -218,7 +218,6 @@ DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun
                      axes.up * ((i & 4) ? wide : -wide);
     }
     view.asked = asked_part(view, corners, kBeside_m);
-    view.until_m = until;
     return view;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "formulas/light/patch_cells.h"
@@ -75,7 +74,7 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
     overlay_.indices = caps_->indices;
     for (const scene::SnowCaps::Part& from : caps_->parts) {
         Overlay::Part part{from.material, from.instance, from.first_index, from.index_count,
-                           {vec3(1.0e30f), vec3(-1.0e30f)}, from.casters.empty() ? Stands::Alone : Stands::Fine};
+                           {vec3(1.0e30f), vec3(-1.0e30f)}};
         for (std::size_t v = 0; v < from.source.positions.size(); ++v) {
             overlay_.vertices.push_back(vertex_of(from.source, v));
             part.box.low = glm::min(part.box.low, from.source.positions[v] - kTallest_m);
@@ -100,28 +99,6 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
     inner_.assign(caps_->points.size(), 1);
     for (const auto& [edge, way] : ways)
         if (way != 0) inner_[edge.first] = inner_[edge.second] = 0;
-    // Vertices of their own, that lie side by side: all between the first and the last are looked at.
-    for (std::size_t i = 0; i < caps_->parts.size(); ++i) {
-        const scene::SnowCaps::Part& from = caps_->parts[i];
-        if (from.casters.empty()) continue;
-        Overlay::Part part = overlay_.parts[i];
-        part.first_index = static_cast<std::uint32_t>(overlay_.indices.size());
-        part.index_count = static_cast<std::uint32_t>(from.casters.size());
-        part.stands = Stands::Coarse;
-        std::map<std::uint32_t, std::uint32_t> vertex;
-        for (const std::uint32_t point : from.casters) {
-            const auto [found, is_new] = vertex.try_emplace(point, static_cast<std::uint32_t>(overlay_.vertices.size()));
-            if (is_new) {
-                overlay_.vertices.push_back({});
-                overlay_.vertices.back().position = caps_->points[point].base_m;
-                caster_points_.push_back(point);
-                part.box.low = glm::min(part.box.low, caps_->points[point].base_m - kTallest_m);
-                part.box.high = glm::max(part.box.high, caps_->points[point].base_m + kTallest_m);
-            }
-            overlay_.indices.push_back(found->second);
-        }
-        overlay_.parts.push_back(part);
-    }
 }
 
 void SnowBody::find_patches(const PlaceShape& shape)
@@ -192,10 +169,7 @@ bool SnowBody::lay(const Frame& frame)
     lies_ = shape.thickest_m > kThin_m;
     if (!lies_) return lay_before;
     lift_m_ = 0.0f;
-    const std::size_t corners = caps_->corner_points.size();
-    for (std::size_t i = 0; i < caster_points_.size(); ++i)
-        overlay_.vertices[corners + i].position = shape.positions[caster_points_[i]];
-    for (std::size_t i = 0; i < corners; ++i) {
+    for (std::size_t i = 0; i < overlay_.vertices.size(); ++i) {
         const std::uint32_t point = caps_->corner_points[i];
         Vertex& v = overlay_.vertices[i];
         v.position = shape.positions[point];

@@ -52,7 +52,6 @@ private:
 
     std::shared_ptr<const scene::SnowCaps> caps_;
     Overlay overlay_;
-    std::vector<std::uint32_t> caster_points_;  // of the overlay's last vertices
     std::optional<Key> laid_;
     bool lies_ = false;
     float lift_m_ = 0.0f;

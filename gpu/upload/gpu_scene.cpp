@@ -215,8 +215,6 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
         draw.material = part.material;
         draw.instance_id = part.instance_id;
         draw.overlay = true;
-        draw.stands = part.stands;
-        draw.shown = part.stands != Stands::Coarse;
         const auto own = std::span(overlay.indices).subspan(part.first_index, part.index_count);
         if (!own.empty()) {
             const auto [least, most] = std::minmax_element(own.begin(), own.end());

@@ -23,10 +23,6 @@ const std::vector<VertexAttribute>& vertex_attributes();
 /// Of the buffer of positions alone.
 VertexAttribute position_attribute();
 
-/// Of what is laid over a scene: seen and in all maps of the sun; or seen, and in those alone in which its coarser part
-/// would shadow it; or that one, which is not seen.
-enum class Stands { Alone, Fine, Coarse };
-
 /// One primitive of one instance.
 struct Draw {
     std::uint32_t first_index = 0;
@@ -50,7 +46,6 @@ struct Draw {
     std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
     std::int32_t waving = -1;  ///< likewise of how wind bends it
     bool overlay = false;
-    Stands stands = Stands::Alone;
     std::int32_t shape = -1;  ///< number in the scene's shapes; negative: triangles
 };
 
@@ -71,7 +66,6 @@ struct Overlay {
         std::uint32_t first_index = 0;
         std::uint32_t index_count = 0;
         Bounds box;  ///< that it never leaves
-        Stands stands = Stands::Alone;
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;

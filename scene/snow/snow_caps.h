@@ -64,8 +64,6 @@ struct SnowCaps {
         /// Of each of its triangles, the one of that primitive below; kUncovered where parts of that have no cap.
         std::vector<std::uint32_t> below;
         Primitive source;  ///< vertices of its corners, in the world; no indices
-        /// Of points, 3 a triangle: what throws its shadow, coarser (add_casters); empty: the part itself does.
-        std::vector<std::uint32_t> casters;
     };
     std::vector<Point> points;
     std::vector<std::uint32_t> corner_points;  ///< of each vertex of all parts, in their order

@@ -9,7 +9,7 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x65706163;  // "cape"
+constexpr std::uint32_t kMagic = 0x66706163;  // "capf"
 static_assert(sizeof(SnowCaps::Point) == 31 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
@@ -71,8 +71,7 @@ bool fits(const SnowCaps& caps, const SnowCaps::Part& part, const Scene& scene)
     const bool all_there = std::all_of(part.below.begin(), part.below.end(), [own](std::uint32_t below) {
         return below < own || below == SnowCaps::kUncovered;
     });
-    const bool casts = std::all_of(part.casters.begin(), part.casters.end(), [&caps](std::uint32_t point) { return point < caps.points.size(); });
-    return all_there && casts && part.casters.size() % 3 == 0 && part.material < scene.materials.size() &&
+    return all_there && part.material < scene.materials.size() &&
            part.first_index <= caps.indices.size() &&
            part.index_count <= caps.indices.size() - part.first_index &&
            part.first_corner <= caps.corner_points.size() &&
@@ -105,7 +104,6 @@ std::vector<std::byte> snow_caps_to_bytes(const SnowCaps& caps)
         to.list(p.uv1);
         to.list(p.colors);
         to.list(p.weather);
-        to.list(part.casters);
     }
     return std::move(to.bytes);
 }
@@ -135,7 +133,6 @@ std::optional<SnowCaps> snow_caps_from_bytes(std::span<const std::byte> bytes, c
         p.uv1 = from.list<glm::vec2>();
         p.colors = from.list<glm::vec4>();
         p.weather = from.list<glm::vec4>();
-        part.casters = from.list<std::uint32_t>();
         if (!fits(caps, part, scene)) return {};
         caps.parts.push_back(std::move(part));
     }

@@ -4,7 +4,6 @@
 
 #include "gpu/snow/snow_body.h"
 #include "scene/patches/tracer.h"
-#include "scene/snow/coarser_caps.h"
 #include "scene/snow/snow_caps.h"
 #include "tests/gpu/gpu_fixture.h"
 
@@ -175,42 +174,6 @@ TEST_F(SnowBodyTest, BothWaysToShadeShowIt)
                    (0.01 + static_cast<double>(luminance(pixel(a, x, y))));
     }
     EXPECT_LT(sum / (kSize * kSize), 0.01);
-}
-
-// Coarser triangles throw the shadows of the caps.
-TEST_F(SnowBodyTest, CoarserCastersThrowItsShadows)
-{
-    // Wide, as a place is: its maps have texels that coarser triangles are as fine as.
-    scene.meshes[0].primitives.push_back(quad({-30, -2, 30}, {60, 0, 0}, {0, 0, -60}));
-    const scene::Triangles triangles(scene, {});
-    const scene::Tracer tracer(triangles);
-    caps = std::make_shared<const scene::SnowCaps>(scene::build_snow_caps(tracer, {}));
-    auto coarser = std::make_shared<scene::SnowCaps>(*caps);
-    scene::add_casters(*coarser, {});
-    Frame f = frame(0.18f);
-    f.camera = look({0, 6, 0}, {0, 0, 0});
-    f.camera.orthographic_height_m = 0.0f;
-    f.camera.vertical_fov_rad = 1.3f;
-    f.sky.sun_elevation_rad = 0.25f;
-    f.sky.sun_azimuth_rad = 1.5707963f;
-    f.settings.exposure = 1e-5f;
-    renderer->load(scene, {}, caps);
-    const RenderResult own = renderer->render(f);
-    renderer->load(scene, {}, coarser);
-    const RenderResult coarse = renderer->render(f);
-    auto gone = std::make_shared<scene::SnowCaps>(*coarser);
-    for (scene::SnowCaps::Part& part : gone->parts) part.casters.assign(3, 0);
-    renderer->load(scene, {}, gone);
-    const RenderResult none = renderer->render(f);
-    const auto others = [&](const RenderResult& r) {
-        int count = 0;
-        for (int y = 0; y < kSize; ++y)
-            for (int x = 0; x < kSize; ++x)
-                count += std::abs(luminance(pixel(r, x, y)) - luminance(pixel(own, x, y))) > 0.4f * luminance(pixel(own, x, y)) ? 1 : 0;
-        return count;
-    };
-    EXPECT_LT(others(coarse), 4);
-    EXPECT_GT(others(none), 20) << "its shadow is theirs";
 }
 
 // A bank has the name of what it lies on, and covers none of it; the caps beside it do.

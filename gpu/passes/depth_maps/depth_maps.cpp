@@ -8,13 +8,11 @@
 #include "gpu/passes/depth_maps/depth_quads_io.h"
 #include "gpu/passes/shapes/shapes.h"
 #include "gpu/upload/draw.h"
-#include "scene/snow/coarser_caps.h"
 
 namespace petrichor::gpu {
 
 namespace {
 
-constexpr float kOver = 0.5f;  // texels that what stands for the snow may lie over it
 constexpr VkDeviceSize kSkyLayerBytes = VkDeviceSize{kSkyMapSize} * kSkyMapSize * sizeof(glm::uvec2);
 static_assert(kSkyMapSize % DEPTH_QUADS_TILE == 0);
 
@@ -42,10 +40,10 @@ bool casts(const GpuMaterial& material, Falls falls)
     return material.casts_shadows || falls == Falls::Rain;
 }
 
-bool is_caster(const GpuScene& scene, const Draw& draw, Falls falls, Stands stand_in)
+bool is_caster(const GpuScene& scene, const Draw& draw, Falls falls)
 {
     if (!draw.casts || draw.index_count == 0) return false;
-    if (draw.overlay && (falls != Falls::Light || (draw.stands != Stands::Alone && draw.stands != stand_in))) return false;
+    if (draw.overlay && falls != Falls::Light) return false;
     return casts(scene.materials()[draw.material], falls);
 }
 
@@ -66,11 +64,11 @@ glm::vec4 eye_of(const glm::mat4& clip_from_world)
 }  // namespace
 
 Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::mat4& clip_from_world,
-                   int size, Falls falls, const AskedPart& asked, Stands stand_in)
+                   int size, Falls falls, const AskedPart& asked)
 {
     const Frustum frustum(clip_from_world);
     const auto wanted = [&](const Draw& draw) {
-        return is_caster(scene, draw, falls, stand_in) && frustum.touches(draw.centre_m, draw.radius_m) &&
+        return is_caster(scene, draw, falls) && frustum.touches(draw.centre_m, draw.radius_m) &&
                asked_of(asked, clip_from_world, draw.centre_m, draw.radius_m);
     };
     Casters casters;
@@ -216,8 +214,7 @@ void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
                    SeenTriangles& triangles, const DepthView& view, GpuImage& map, VkImageView layer,
                    Falls falls)
 {
-    const Stands stand_in = scene::casters_over_m(view.until_m) <= kOver * view.texel_m ? Stands::Coarse : Stands::Fine;
-    const Casters casters = casters_in(triangles, scene, view.clip_from_world, map.width, falls, view.asked, stand_in);
+    const Casters casters = casters_in(triangles, scene, view.clip_from_world, map.width, falls, view.asked);
     graph.add(DrawPass{.name = name,
                        .colors = {},
                        .depth = Attachment(map, layer),

@@ -60,9 +60,9 @@ struct Casters {
     std::shared_ptr<const SeenDraws> seen;  ///< of single ones; null: all their triangles
 };
 
-/// What a square map of `size` texels may show where it is asked. stand_in: which of what lies on the scene.
+/// What a square map of `size` texels may show where it is asked.
 Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::mat4& clip_from_world,
-                   int size, Falls falls, const AskedPart& asked = {}, Stands stand_in = Stands::Fine);
+                   int size, Falls falls, const AskedPart& asked = {});
 void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
                   Falls falls, const Casters& casters);
 
