@@ -614,6 +614,10 @@ TEST(TextureBuild, ASecondLobeGoesWithTheNormals)
     EXPECT_EQ(two["lobes"], 2);
     EXPECT_LT(two["shipped"]["rmse"].get<double>(), one["shipped"]["rmse"].get<double>());
     EXPECT_FALSE(fs::exists(place / "out1/plate_second_lobe.dds"));
+    // Filament's normals are levels of PNG and a KTX2.
+    EXPECT_EQ(run({"texture", "build", "in", "--engine", "filament", "--quality", "full", "--lobes", "2", "-o", "both"}, place).exit_code, 0);
+    EXPECT_TRUE(fs::exists(place / "both/plate_second_lobe.ktx2"));
+    EXPECT_TRUE(fs::exists(place / "both/plate_second_lobe_1.png"));
     const texproc::RawImage lobe = texproc::read_raw(place / "out2/plate_second_lobe.dds"),
                             normal = texproc::read_raw(place / "out2/T_plate_N.dds"),
                             rough = texproc::read_raw(place / "in/plate_roughness.png");

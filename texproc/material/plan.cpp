@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/words.h"
@@ -77,7 +78,7 @@ PlannedOutput planned(const OutputRule& rule, const PlannedMaterial& material,
     return out;
 }
 
-// Beside the normals of every folder, in the same kind of file: a second lobe of their texels.
+// Beside the normals of every folder, in each kind of file that they have: a second lobe of their texels.
 void add_second_lobes(PlannedMaterial& material)
 {
     const Recipe& recipe = *material.recipe;
@@ -87,10 +88,10 @@ void add_second_lobes(PlannedMaterial& material)
                     "Add --quality full, or leave --lobes out.");
     }
     std::vector<PlannedOutput> more;
-    std::set<std::string> folders;
+    std::set<std::pair<std::string, std::string>> places;
     for (const PlannedOutput& output : material.outputs) {
         if (!output.prefiltered || !contains(output.roles, "normal") || !output.rule.has_levels()) continue;
-        if (!folders.insert(output.rule.folder).second) continue;
+        if (!places.emplace(output.rule.folder, output.rule.format).second) continue;
         PlannedOutput second;
         second.rule = output.rule;
         second.rule.file = "{name}_second_lobe";
