@@ -495,7 +495,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.probes = &probes;
     resources.place = &place;
     resources.snow_lift_m = snow ? snow->lift_m() : 0.0f;
-    resources.over_snow = snow && snow->is_below(glm::vec3(frame.camera.to_world[3]));
+    resources.over_snow = snow && snow->lies_below(glm::vec3(frame.camera.to_world[3]));
     resources.environment = environment.get();
     // The sky first: how far lamps reach, and what patches send each other, depend on it.
     FrameGraph before = build_sky(frame, sun, resources);

@@ -199,6 +199,7 @@ std::string missing_features(VkPhysicalDevice device)
     need(has.core.features.independentBlend, "independentBlend");
     need(has.v12.subgroupBroadcastDynamicId, "subgroupBroadcastDynamicId");
     need(subgroups(device).subgroupSupportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT, "ballot in subgroups");
+    need(subgroups(device).subgroupSupportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT, "shuffle in subgroups");
     return missing;
 }
 
@@ -454,7 +455,7 @@ void Device::destroy()
 
 std::uint32_t Device::memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags wanted) const
 {
-    // What the CPU maps it reads as well, which past its caches is ten times slower.
+    // What the CPU maps it reads as well, which is slow past its caches (docs/gpus.md).
     const bool mapped = (wanted & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
     for (const VkMemoryPropertyFlags better : {mapped ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : 0u, 0u}) {
         for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {

@@ -226,7 +226,7 @@ void SnowBody::find_covered(const scene::SnowShape& shape)
     }
 }
 
-bool SnowBody::is_below(const vec3& eye_m) const
+bool SnowBody::lies_below(const vec3& eye_m) const
 {
     if (!lies_) return false;
     for (std::size_t i = 0; i < top_m_.size(); ++i) {

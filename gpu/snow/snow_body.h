@@ -34,8 +34,8 @@ public:
     std::span<const Vertex> vertices() const;
     /// What of the scene lies below it: the same triangles of the caps are seen from above, and throw its shadows.
     std::span<const Covered> covered() const;
-    /// An eye there stands in no snow, nor just below it.
-    bool is_below(const glm::vec3& eye_m) const;
+    /// The snow around an eye lies below it: it stands in none, and under none.
+    bool lies_below(const glm::vec3& eye_m) const;
     /// The farthest that a vertex stands over its ground; 0 without any.
     float lift_m() const { return lies_ ? lift_m_ : 0.0f; }
 

@@ -150,8 +150,8 @@ TEST_F(SnowBodyTest, WhatItCoversIsMissedNowhere)
     for (const Covered& one : body.covered())
         for (const std::uint8_t from : one.triangles) hidden += (from & Covered::kFromEye) != 0 ? 1 : 0;
     EXPECT_GT(hidden, 2000u);
-    EXPECT_TRUE(body.is_below({0.5f, 0.45f, 0}));
-    EXPECT_FALSE(body.is_below({0.5f, 0.1f, 0}));
+    EXPECT_TRUE(body.lies_below({0.5f, 0.45f, 0}));
+    EXPECT_FALSE(body.lies_below({0.5f, 0.1f, 0}));
     renderer->load(rough, {}, own);
     std::vector<std::vector<std::uint16_t>> without;
     for (const Frame& f : frames) without.push_back(renderer->render(f).beauty);
