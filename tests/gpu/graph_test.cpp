@@ -6,6 +6,7 @@
 #include "gpu/passes/glare/glare.h"
 #include "gpu/passes/sky/scattered_again.h"
 #include "gpu/passes/sky/sky_io.h"
+#include "gpu/passes/surface_maps/surface_maps.h"
 
 #include <cstring>
 #include <glm/gtc/packing.hpp>
@@ -163,6 +164,59 @@ TEST_F(GraphTest, QuadsOfACubeHoldWhatLiesAroundThem)
         ++corners;
     }
     EXPECT_EQ(corners, 24);
+    expect_silence();
+}
+
+// Codes of 8 bits that are halved six times: blits of some drivers lose half a code at each level.
+TEST_F(GraphTest, LevelsOfAWeatherMapKeepItsMean)
+{
+    constexpr int side = 64;
+    WeatherMaps given;
+    given.snow.size = side;
+    std::uint32_t state = 1;
+    glm::dvec4 mean(0.0);
+    for (int i = 0; i < side * side * 4; ++i) {
+        state = state * 1664525u + 1013904223u;
+        const std::uint32_t code = 40u + (state >> 24) % 100u;
+        given.snow.rgba.push_back(static_cast<std::byte>(code));
+        mean[i % 4] += static_cast<double>(code) / (side * side);
+    }
+    SurfaceMaps maps(*device, *arena, 16, given);
+    const auto levels = arena->buffer(
+        {.name = "levels", .size = side * side * 8, .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT, .host = true});
+    const auto begin = [](int level) {
+        int first = 0;
+        for (int i = 0; i < level; ++i) first += 4 * (side >> i) * (side >> i);
+        return first;
+    };
+    FrameGraph graph;
+    add_surface_map_sources(graph, maps);
+    graph.add(TransferPass{
+        "levels",
+        {{maps.snow.get(), nullptr, Use::TransferSource}, {nullptr, levels.get(), Use::TransferTarget}},
+        [&](VkCommandBuffer commands) {
+            for (int level = 0; level < maps.snow->mips; ++level) {
+                const auto wide = static_cast<std::uint32_t>(side >> level);
+                VkBufferImageCopy region{};
+                region.bufferOffset = static_cast<VkDeviceSize>(begin(level));
+                region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(level), 0, 1};
+                region.imageExtent = {wide, wide, 1};
+                vkCmdCopyImageToBuffer(commands, maps.snow->image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                       levels->buffer.get(), 1, &region);
+            }
+        }});
+    graph.read_back({levels.get()});
+    graph.execute(*device, *pipelines, *descriptors);
+    ASSERT_EQ(maps.snow->mips, 7);
+    for (int level = 0; level < maps.snow->mips; ++level) {
+        const int count = (side >> level) * (side >> level);
+        glm::dvec4 of_level(0.0);
+        for (int i = 0; i < 4 * count; ++i)
+            of_level[i % 4] += static_cast<double>(levels->mapped[begin(level) + i]) / count;
+        // One texel is rounded by itself; many keep the mean.
+        const double bound = 0.08 + 0.8 / std::sqrt(count);
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(of_level[c], mean[c], bound) << "level " << level << " channel " << c;
+    }
     expect_silence();
 }
 

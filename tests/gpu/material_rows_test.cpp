@@ -27,7 +27,7 @@ Texture chequers(const char* name, TexelFormat format, std::array<int, 4> low,
             for (const int byte : texel) texture.mips[0].push_back(static_cast<std::byte>(byte));
         }
     }
-    if (texture.name != "height_texture") return texture;
+    if (texture.name != "height_texture" && texture.name != "normal_texture") return texture;
     for (int side = 4; side > 0; side /= 2) {
         texture.mips.emplace_back();
         for (int i = 0; i < side * side; ++i) {
@@ -186,6 +186,7 @@ void make_visible(std::string_view row, Material& m)
         m.decal.on = true;
         m.decal.weights.w = row == "decal_weights" ? 0.0f : 1.0f;
     }
+    if (row == "parallax_steps") m.weather.parallax_steps = 4;
     if (row == "height_channel") m.weather.height = use_of("height_texture");
 }
 
@@ -260,6 +261,11 @@ Frame weathered(std::string_view row = "")
         frame.weather.flood_cracks = frame.weather.flood_puddles = frame.weather.snow_amount = 0.0f;
         frame.weather.melt = 0.0f;
     }
+    if (row == "skin_blur") {  // shares of layers ask for this path: another path would be a change, too
+        frame.settings.surface_path = SurfacePath::Visibility;
+        frame.weather.flood_puddles = frame.weather.snow_amount = frame.weather.melt = 0.0f;
+    }
+    if (row == "parallax_steps") frame.camera = look({0.3f, 0.5f, 1.8f}, {0.3f, 0.0f, 0.3f});
     if (row == "translucency_distortion") {  // bends what comes from behind
         frame.sky.sun_azimuth_rad = -0.3f;
         frame.sky.sun_elevation_rad = 0.3f;

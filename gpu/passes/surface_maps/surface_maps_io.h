@@ -11,6 +11,9 @@
 // ripple
 #define RIPPLE_SOURCE 0
 #define RIPPLE_TARGET 1
+// map_mip
+#define MAP_MIP_FROM 0
+#define MAP_MIP_TO 1
 // map_quads
 #define MAP_QUADS_MAP 0
 #define MAP_QUADS_QUADS 1
