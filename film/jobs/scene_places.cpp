@@ -24,6 +24,19 @@ bool wants_hollows(const Sequence& sequence)
                        [](const SequenceVariant& v) { return v.weather.script != nullptr; });
 }
 
+// Pictures of what lies at each place, of a sequence whose weather is the same everywhere.
+std::optional<std::string> note_of_pictures(const ScenarioOutput& output)
+{
+    std::string asked;
+    for (const char* name : {"film_depth", "water_depth", "snow_depth", "ice", "rain_exposure"}) {
+        if (std::find(output.aovs.begin(), output.aovs.end(), name) == output.aovs.end()) continue;
+        asked += (asked.empty() ? "" : ", ") + std::string(name);
+    }
+    if (asked.empty()) return std::nullopt;
+    return asked + ": the frame's, by how much of its film, water or snow the pixel shows, since the weather is the same everywhere; "
+                   "[ground] patches = true gives each place its own";
+}
+
 const SequenceVariant& variant_of(const Sequence& sequence, const Job& job)
 {
     return *std::find_if(sequence.variants.begin(), sequence.variants.end(),
@@ -42,6 +55,7 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
                                         return wants_places(sequence.scenario.ground, v.weather);
                                     });
     if (first == sequence.variants.end()) {
+        if (auto note = note_of_pictures(sequence.scenario.output)) notes.push_back(std::move(*note));
         if (wants_hollows(sequence)) hollows_.emplace(sequence.scene);
         if (hollows_ && hollows_->any()) {
             notes.push_back("no material says where water stands: it runs to " +

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "film/jobs/scene_places.h"
 #include "film/jobs/sequence.h"
 #include "film/scenario/look_keys.h"
 
@@ -86,6 +87,21 @@ TEST(Job, AVariantChangesWhatItSaysAndNothingElse)
     EXPECT_EQ(right.camera.to_world[3].x, 4.0f);
     EXPECT_EQ(dry.camera.to_world[3].x, -4.0f);
     EXPECT_THROW(frame_at(sequence, {1, "wet", "left"}), Error);
+}
+
+// Pictures of places are those of the frame where no place has weather of its own: that is said.
+TEST(Job, PicturesOfPlacesWithoutPlacesAreNamed)
+{
+    const auto notes_of = [](const std::string& aovs) {
+        const Sequence sequence = make_sequence(parse_scenario("[output]\naovs = " + aovs + "\n", "s.toml"));
+        std::vector<std::string> notes;
+        const ScenePlaces places(sequence, 1, {}, {}, notes);
+        return notes;
+    };
+    EXPECT_THAT(notes_of("[\"depth\", \"rain_exposure\", \"ice\"]"),
+                testing::Contains(testing::AllOf(testing::StartsWith("ice, rain_exposure: "),
+                                                 testing::HasSubstr("[ground] patches = true"))));
+    EXPECT_THAT(notes_of("[\"depth\"]"), testing::IsEmpty());
 }
 
 TEST(Job, PartsNeedGoodNames)
