@@ -430,6 +430,7 @@ struct Light {
     int mask_channel = 0;    ///< of shadow masks, that its shadow is baked in: 1..3; 0: none
     std::int32_t node = kNoNode;  ///< of the rig, that carries it
     std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative
+    bool in_lantern = false;  ///< its shadows are those of what lies outside its lantern (scene/lanterns.h); `profile` has the rest
 };
 
 /// How a lamp shines by direction, at most 1: a measured distribution (IES) over angles, or a picture
@@ -441,6 +442,8 @@ struct LightProfile {
     bool picture = false;  ///< over the square of a spot's cone, `up` up; else over angles: a column a
                            ///< turn about `direction` from `up`, a row an angle from it, 0 to pi
     std::vector<glm::vec3> texels;
+    bool lantern = false;  ///< over an octahedron around the axes of the world (formulas/codec/octahedral.h): share
+                           ///< of the lamp that is seen past its lantern, and metres to what lies first that way
 };
 
 /// Looks along -z of `to_world`, +y up.

@@ -27,6 +27,7 @@
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
 #include "film/weather/film_by_name.h"
+#include "scene/lanterns.h"
 
 namespace petrichor::film {
 namespace {
@@ -141,6 +142,11 @@ void load_sequence_scene(Sequence& sequence, int threads)
         apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), lamps.unmatched.begin(),
                                    lamps.unmatched.end());
+    if (scenario.lights.lanterns && scenario.render.lamp_shadows > 0) {
+        const std::vector<std::string> lanterns = scene::shade_by_lanterns(sequence.scene);
+        if (!lanterns.empty())
+            sequence.notes.push_back("lamps in lanterns, whose parts shade softly: " + join_words(lanterns));
+    }
     std::vector<std::string> cookies;
     for (const SequenceVariant& variant : sequence.variants)
         cookies.push_back(variant.conditions.sun.cookie);

@@ -112,6 +112,7 @@ void add_light(Hasher& hasher, const scene::Light& light)
     hasher.add(light.both_sides);
     hasher.add(light.shaped);
     hasher.add(light.profile);
+    hasher.add(light.in_lantern);
     hasher.add(light.mask_channel);
     for (const glm::vec3& v :
          {light.color, light.position_m, light.direction, light.half_u_m, light.half_v_m,

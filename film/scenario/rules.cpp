@@ -403,6 +403,10 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.lights.dusk_fade_degrees = v.number(0.0, 90.0); }},
         {{"lights", "emissive", "true", "glowing materials light what is around them"},
          [](Scenario& s, const TomlValue& v) { s.lights.emissive = v.boolean(); }},
+        {{"lights", "lanterns", "true",
+          "what stands within 0.35 m of a point lamp shades as softly as a lamp that fills its lantern; false: "
+          "with the hard edges of a point"},
+         [](Scenario& s, const TomlValue& v) { s.lights.lanterns = v.boolean(); }},
         {{"lights", "area", "\"ltc\"",
           "lamps with a size: ltc (linearly transformed cosines), nearest (the point nearest to "
           "what is "

@@ -155,6 +155,7 @@ struct ScenarioLights {
     double dusk_fade_degrees = 4.0;  ///< ... none this much above it
     gpu::AreaLights area = gpu::AreaLights::Ltc;
     bool emissive = true;            ///< what glows lights its surroundings
+    bool lanterns = true;            ///< what stands around a lamp shades softly
     double scale = 1.0;
     double least_lux = 0.0;          ///< where lamps without a range end; 0: by the exposure
 };

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "gpu/upload/emissive_lights.h"
+#include "scene/lanterns.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {
@@ -47,6 +48,69 @@ Scene floor_and(std::vector<Primitive> more)
     Material grey = plain_material(glm::vec3(0.5f), 1.0f);
     grey.double_sided = true;
     return scene_of(std::move(all), {grey, grey});
+}
+
+// Four bars around a lamp: at one sample a floor is lit nearly as by 64 points of the ball, where a point throws
+// four black beams.
+TEST_F(LampTest, ALanternShadesAsTheBallInIt)
+{
+    std::vector<Primitive> bars;
+    for (const float s : {-0.14f, 0.14f}) {
+        for (const float t : {-0.14f, 0.14f}) {
+            bars.push_back(quad({s - 0.015f, 1.0f, t}, {0.03f, 0, 0}, {0, 0.4f, 0}, 1));
+            bars.push_back(quad({s, 1.0f, t - 0.015f}, {0, 0, 0.03f}, {0, 0.4f, 0}, 1));
+        }
+    }
+    Scene scene = floor_and(bars);
+    Light light = lamp({0, 1.2f, 0}, 100.0f);
+    light.radius_m = 0.1f;
+    scene.lights = {light};
+    Frame frame = from_above();
+    frame.settings.area_lights = AreaLights::Off;
+    frame.settings.samples = 1;
+    renderer->load(scene, {});
+    const RenderResult point = renderer->render(frame);
+    frame.settings.soft_shadows = true;
+    frame.settings.samples = 64;
+    const RenderResult ball = renderer->render(frame);
+    frame.settings.soft_shadows = false;
+    frame.settings.samples = 1;
+    ASSERT_EQ(scene::shade_by_lanterns(scene).size(), 1u);
+    renderer->load(scene, {});
+    const RenderResult lantern = renderer->render(frame);
+    double of_point = 0.0, of_lantern = 0.0, mean = 0.0;
+    int pixels = 0;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            if (std::hypot(static_cast<float>(x) - 31.5f, static_cast<float>(y) - 31.5f) < 5.0f) continue;  // the bars
+            const auto expected = static_cast<double>(luminance(pixel(ball, x, y)));
+            of_point += std::pow(static_cast<double>(luminance(pixel(point, x, y))) - expected, 2.0);
+            of_lantern += std::pow(static_cast<double>(luminance(pixel(lantern, x, y))) - expected, 2.0);
+            mean += expected;
+            ++pixels;
+        }
+    }
+    mean /= pixels;
+    EXPECT_LT(std::sqrt(of_lantern / pixels), 0.06 * mean);
+    EXPECT_LT(of_lantern, 0.1 * of_point);
+}
+
+// Within its lantern a lamp lights what lies before the first thing, and not what lies behind.
+TEST_F(LampTest, NoLightLeaksThroughAWallBehindTheLamp)
+{
+    Scene scene = floor_and({quad({-0.15f, 0, -2}, {0, 0, 4}, {0, 3, 0}, 1), quad({-0.3f, 0, -2}, {0, 0, 4}, {0, 3, 0}, 1)});
+    scene.lights = {lamp({0, 1.0f, 0}, 100.0f)};
+    ASSERT_EQ(scene::shade_by_lanterns(scene).size(), 1u);
+    renderer->load(scene, {});
+    Frame frame = from_above();
+    const auto on_wall = [&](float eye_x, float wall_x) {
+        frame.camera = look({eye_x, 1.0f, 0.0f}, {wall_x, 1.0f, 0.0f});
+        frame.camera.orthographic_height_m = 0.4f;
+        return luminance(pixel(renderer->render(frame), 32, 32));
+    };
+    EXPECT_GT(on_wall(0.1f, -0.15f), 100.0f);
+    EXPECT_LT(on_wall(-0.2f, -0.3f), 1.0f);   // what faces the back of the first
+    EXPECT_LT(on_wall(-0.6f, -0.3f), 1.0f);   // the other side
 }
 
 TEST_F(LampTest, AFrameSaysWhatLightsIt)

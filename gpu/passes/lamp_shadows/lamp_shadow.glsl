@@ -27,8 +27,8 @@ float longest_part(vec3 d)
     return max(abs(d.x), max(abs(d.y), abs(d.z)));
 }
 
-// Share of the lamp `number`, at `lamp_m`, that is seen from a surface; `normal`: of its mesh.
-float lamp_visibility(float number, vec3 lamp_m, vec3 position, vec3 normal, ivec2 texel)
+// Share of the lamp `number`, at `lamp_m`, that is seen from a surface; its map begins at near_m; `normal`: of its mesh.
+float lamp_visibility(float number, vec3 lamp_m, float near_m, vec3 position, vec3 normal, ivec2 texel)
 {
     const vec3 to_lamp = lamp_m - position;
     const float texel_m = 2.0 * longest_part(to_lamp) / float(LAMP_MAP_SIZE);
@@ -36,12 +36,12 @@ float lamp_visibility(float number, vec3 lamp_m, vec3 position, vec3 normal, ive
     const vec3 d = l * shadow_lift_m(normal, l, texel_m) - to_lamp;
     const float face = lamp_face(d, longest_part(d));
     const vec3 on_face = on_lamp_face(d, face);
-    const float along = max(on_face.z, LAMP_MAP_NEAR_M);
+    const float along = max(on_face.z, near_m);
     const vec2 uv = on_face.xy * (0.5 * LAMP_MAP_COVER / on_face.z) + 0.5;
-    const vec2 slope = lamp_plane_slope(normal, d, on_lamp_face(normal, face).xy) * (LAMP_MAP_NEAR_M * 2.0 / LAMP_MAP_COVER);
+    const vec2 slope = lamp_plane_slope(normal, d, on_lamp_face(normal, face).xy) * (near_m * 2.0 / LAMP_MAP_COVER);
     const float turn = 6.2831853 * dither(texel, frame.sample_index + 19u);
     const vec2 axis = vec2(cos(turn), sin(turn)) * SHADOW_DISC_TEXELS;
-    return disc_lit(lamp_shadow_map, uv, number * 6.0 + face, LAMP_MAP_NEAR_M / along, slope, axis);
+    return disc_lit(lamp_shadow_map, uv, number * 6.0 + face, near_m / along, slope, axis);
 }
 
 #endif

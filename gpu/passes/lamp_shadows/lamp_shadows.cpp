@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "gpu/passes/lamp_shadows/lamp_shadows_io.h"
+#include "scene/lanterns.h"
 
 namespace petrichor::gpu {
 
 namespace {
+
+static_assert(LANTERN_HALF_M == scene::kLanternHalf_m && LAMP_MAP_NEAR_M == scene::kLampItself_m);
 
 // Across, down and along each face.
 const std::array<std::array<glm::vec3, 3>, 6> kFaces{{
@@ -32,7 +35,7 @@ bool is_lit(const Light& lamp, const glm::vec3& along)
 
 }  // namespace
 
-glm::mat4 lamp_face_view(const glm::vec3& position_m, int face)
+glm::mat4 lamp_face_view(const glm::vec3& position_m, int face, float near_m)
 {
     const auto& [across, down, along] = kFaces[static_cast<std::size_t>(face)];
     glm::mat4 m(0.0f);
@@ -43,7 +46,7 @@ glm::mat4 lamp_face_view(const glm::vec3& position_m, int face)
     set_row(0, across, LAMP_MAP_COVER);
     set_row(1, down, LAMP_MAP_COVER);
     set_row(3, along, 1.0f);
-    m[3][2] = LAMP_MAP_NEAR_M;
+    m[3][2] = near_m;
     return m;
 }
 
@@ -83,12 +86,13 @@ void LampShadows::add(FrameGraph& graph, const GpuScene& scene, SeenTriangles& t
         const Drawn wanted{lamp.position_m, lamp.direction,
                            lamp.kind == LightKind::Spot        ? lamp.outer_cone_rad
                            : lamp.kind == LightKind::Rectangle ? -1.0f
-                                                               : -2.0f};
+                                                               : -2.0f,
+                           lamp.in_lantern ? LANTERN_HALF_M : LAMP_MAP_NEAR_M};
         if (drawn_[i] == wanted) continue;
         drawn_[i] = wanted;
         for (int face = 0; face < 6; ++face) {
             const bool lit = is_lit(lamp, kFaces[static_cast<std::size_t>(face)][2]);
-            const glm::mat4 view = lamp_face_view(wanted.position_m, face);
+            const glm::mat4 view = lamp_face_view(wanted.position_m, face, wanted.near_m);
             const Casters casters =
                 lit ? casters_in(triangles, scene, view, LAMP_MAP_SIZE, Falls::Lamp) : Casters{};
             graph.add(DrawPass{

@@ -33,6 +33,7 @@ private:
         glm::vec3 position_m{0.0f};
         glm::vec3 direction{0.0f};
         float cone_rad = 0.0f;
+        float near_m = 0.0f;
         bool operator==(const Drawn&) const = default;
     };
 
@@ -44,7 +45,7 @@ private:
 };
 
 /// Clip space of one face of the cube around a place: depth is reversed, near over distance.
-glm::mat4 lamp_face_view(const glm::vec3& position_m, int face);
+glm::mat4 lamp_face_view(const glm::vec3& position_m, int face, float near_m);
 
 }  // namespace petrichor::gpu
 

@@ -67,19 +67,55 @@ vec4 ltc_matrix(float roughness, float nv)
     return mix(a, b, part.x);
 }
 
-// How a lamp shines that way, of its profile; `away` points from the lamp.
-vec3 light_profile(LightRow light, vec3 away)
+bool in_lantern(LightRow light) { return (WAYS & LIGHTS_LANTERN) != 0u && fract(light.size.w) > 0.25; }
+
+// Where the shadows of a lamp begin.
+float light_near_m(LightRow light)
+{
+    return in_lantern(light) ? LANTERN_HALF_M : LAMP_MAP_NEAR_M;
+}
+
+vec3 profile_texels(int first, vec2 place, bool wraps)
+{
+    const ivec2 low = ivec2(place);
+    const vec2 part = place - vec2(low);
+    const ivec2 last = ivec2(LIGHT_PROFILE_SIDE - 1);
+    ivec2 high = min(low + 1, last);
+    if (wraps && low.x == last.x) high.x = 0;
+    const int row = first + low.y * LIGHT_PROFILE_SIDE;
+    const int below = first + high.y * LIGHT_PROFILE_SIDE;
+    const vec3 a = mix(texelFetch(light_profiles, row + low.x).rgb,
+                       texelFetch(light_profiles, row + high.x).rgb, part.x);
+    const vec3 b = mix(texelFetch(light_profiles, below + low.x).rgb,
+                       texelFetch(light_profiles, below + high.x).rgb, part.x);
+    return mix(a, b, part.y);
+}
+
+// What is seen of a lamp past its lantern; within it what lies before the lantern's parts sees all.
+float lantern_share(int first, vec3 away, float far_m)
+{
+    const vec2 place = (octahedral_encode(away) * 0.5 + 0.5) * float(LIGHT_PROFILE_SIDE) - 0.5;
+    const vec2 seen = profile_texels(first, clamp(place, vec2(0.0), vec2(float(LIGHT_PROFILE_SIDE) - 1.001)), false).rg;
+    const float outside =
+        saturate(far_m * max(abs(away.x), max(abs(away.y), abs(away.z))) * (5.0 / LANTERN_HALF_M) - 4.5);
+    return mix(far_m < 1.03 * seen.y + 0.005 ? 1.0 : seen.x, seen.x, outside);
+}
+
+// How a lamp shines that way, of its profile; `away` points from the lamp, so many metres.
+vec3 light_profile(LightRow light, vec3 away, float far_m)
 {
     const float number = light.size.w;
-    if (number < 0.0) return vec3(1.0);
+    const int first = max(int(number), 0) * LIGHT_PROFILE_SIDE * LIGHT_PROFILE_SIDE;
+    vec3 told = vec3(1.0);
+    if ((WAYS & LIGHTS_LANTERN) != 0u) told = vec3(in_lantern(light) ? lantern_share(first, away, far_m) : 1.0);
+    if ((WAYS & LIGHTS_PROFILE) == 0u || number < 0.0 || in_lantern(light)) return told;
     const vec4 axis = light.axis;
     const vec3 up = light.across.xyz;
     const vec3 right = cross(axis.xyz, up);
-    const int first = int(number) * LIGHT_PROFILE_SIDE * LIGHT_PROFILE_SIDE;
     const vec3 at = vec3(dot(away, right), dot(away, up), dot(away, axis.xyz));
     vec2 place;
-    int wrap = 0;
-    if (texelFetch(light_profiles, first).w > 0.5) {
+    const bool picture = texelFetch(light_profiles, first).w > 0.5;
+    if (picture) {
         const float outer = light.color.w;
         const float half_m = sqrt(max(1.0 - outer * outer, 0.0)) / max(outer, 1.0e-3);
         if (at.z <= 0.0) return vec3(0.0);
@@ -88,21 +124,8 @@ vec3 light_profile(LightRow light, vec3 away)
         const float turn = atan(at.x, at.y) * (0.5 / kPi);
         place = vec2((turn - floor(turn)) * float(LIGHT_PROFILE_SIDE),
                      arc_cosine(at.z) / kPi * float(LIGHT_PROFILE_SIDE - 1));
-        wrap = 1;
     }
-    place = clamp(place, vec2(0.0), vec2(float(LIGHT_PROFILE_SIDE) - 0.001));
-    const ivec2 low = ivec2(place);
-    const vec2 part = place - vec2(low);
-    const ivec2 last = ivec2(LIGHT_PROFILE_SIDE - 1);
-    ivec2 high = min(low + 1, last);
-    if (wrap != 0 && low.x == last.x) high.x = 0;
-    const int row = first + low.y * LIGHT_PROFILE_SIDE;
-    const int below = first + high.y * LIGHT_PROFILE_SIDE;
-    const vec3 a = mix(texelFetch(light_profiles, row + low.x).rgb,
-                       texelFetch(light_profiles, row + high.x).rgb, part.x);
-    const vec3 b = mix(texelFetch(light_profiles, below + low.x).rgb,
-                       texelFetch(light_profiles, below + high.x).rgb, part.x);
-    return mix(a, b, part.y);
+    return profile_texels(first, clamp(place, vec2(0.0), vec2(float(LIGHT_PROFILE_SIDE) - 0.001)), !picture);
 }
 
 // The same surface without its highlight.
@@ -252,7 +275,7 @@ vec3 area_light(LitPoint p, LightRow light, vec3 centre, float reach_m, vec4 siz
     float cone = 1.0;
     if (spot) cone = spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
     vec3 shines = color.rgb * cone;
-    if ((WAYS & LIGHTS_PROFILE) != 0u) shines *= light_profile(light, -l);
+    if ((WAYS & (LIGHTS_PROFILE | LIGHTS_LANTERN)) != 0u) shines *= light_profile(light, -l, far);
     const vec3 half_axis = spot ? vec3(0.0) : across * size.y;
     if ((WAYS & LIGHTS_NEAREST) != 0u) {
         return nearest_area_light(p, centre, half_axis, size,

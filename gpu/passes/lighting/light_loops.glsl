@@ -45,7 +45,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
         const float number = shadow.number;
         vec3 from = sphere.xyz;
         if (SOFT_LAMPS != 0u) from += frame_arrays.lamp_offset_m[max(int(number), 0)].xyz;
-        if (number >= 0.0) visible = lamp_visibility(number, from, p.position, p.mesh_normal, texel);
+        if (number >= 0.0) visible = lamp_visibility(number, from, light_near_m(light), p.position, p.mesh_normal, texel);
     }
     if (MASKED) visible = masked(visible, shadow);
     lit = lit && (visible > 0.0 || BLEEDS);
@@ -84,7 +84,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
         falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
     }
     vec3 shines = color.rgb;
-    if ((WAYS & LIGHTS_PROFILE) != 0u) shines *= light_profile(light, -l);
+    if ((WAYS & (LIGHTS_PROFILE | LIGHTS_LANTERN)) != 0u) shines *= light_profile(light, -l, sqrt(d2));
     const vec3 radiance = shadowed_light(p, l, visible) * shines * falloff;
     return lit ? radiance : vec3(0.0);
 }

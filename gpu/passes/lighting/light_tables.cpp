@@ -59,7 +59,7 @@ void LightTables::load(const std::vector<LightProfile>& profiles)
     profile_arena_ = std::make_unique<MemoryArena>(*device_);
     std::vector<glm::vec4> texels;
     for (const LightProfile& profile : profiles) {
-        // The last texel's alpha tells pictures from distributions.
+        // Alpha tells pictures from distributions.
         for (const glm::vec3& texel : profile.texels)
             texels.emplace_back(texel, profile.picture ? 1.0f : 0.0f);
     }

@@ -228,7 +228,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
             table.ways |= LIGHTS_FILL;
         if (spot) table.ways |= LIGHTS_CONE;
         if (light->mask_channel > 0) table.ways |= LIGHTS_MASKED;
-        if (light->profile >= 0) table.ways |= LIGHTS_PROFILE;
+        if (light->profile >= 0) table.ways |= light->in_lantern ? LIGHTS_LANTERN : LIGHTS_PROFILE;
         const float kind = spot                ? std::cos(light->outer_cone_rad)
                            : !rectangle        ? LIGHT_POINT
                            : light->both_sides ? LIGHT_BOTH_SIDES
@@ -244,7 +244,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                                 LIGHT_MASK_STEP * static_cast<float>(light->mask_channel));
         texels.emplace_back(!sized ? 0.0f : rectangle ? 1.0f : light->radius_m,
                             rectangle ? windowed : 0.5f * light->length_m, light->glows ? static_cast<float>(LIGHT_GLOWS) : light->specular,
-                            static_cast<float>(light->profile));
+                            static_cast<float>(light->profile) + (light->in_lantern ? 0.5f : 0.0f));
     }
     if (texels.empty()) texels.emplace_back(0.0f);
     table.texels = arena.buffer(

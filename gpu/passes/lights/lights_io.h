@@ -10,7 +10,8 @@
 //   3   of a rectangle: half of the other edge, so that cross(2, 3) is its front; else across the axis;
 //       the number of its shadow, or -1, and LIGHT_MASK_STEP times its channel of shadow masks, if it has one
 //   4   of lamps that have a size (with LIGHTS_... below): radius, 0 none, of a rectangle 1; half the
-//       length of a tube, of a rectangle 0..1 how far its window fades it towards its reach; share of highlights; the number of its profile, or -1
+//       length of a tube, of a rectangle 0..1 how far its window fades it towards its reach; share of highlights; the number of its profile, or -1,
+//       and a half more of a lamp in a lantern
 #define LIGHT_TEXELS 5
 #define LIGHT_PROFILE_SIDE 128  // texels a side of a profile
 #define LIGHT_MASK_STEP 64.0f
@@ -40,6 +41,7 @@
 
 #define LIGHTS_MASKED 65536u  // of the table: a channel of shadow masks
 
+#define LIGHTS_LANTERN 131072u  // of the table: a lamp in a lantern
 #define LIGHTS_FEW 128u
 
 // So many at once, where a subgroup has as many invocations.
