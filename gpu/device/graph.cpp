@@ -388,6 +388,31 @@ std::string FrameGraph::describe() const
     return text;
 }
 
+void add_rows(FrameGraph& graph, const std::string& name,
+              const std::vector<std::pair<GpuImage*, GpuBuffer*>>& images)
+{
+    TransferPass pass;
+    pass.name = name;
+    std::vector<std::pair<GpuImage*, GpuBuffer*>> copies;
+    for (const auto& [image, rows] : images) {
+        const bool shown = rows->shows == image;
+        pass.transfers.push_back({.image = image, .use = shown ? Use::SeenAsRows : Use::TransferSource});
+        pass.transfers.push_back({.buffer = rows, .use = shown ? Use::RowsOfImage : Use::TransferTarget});
+        if (!shown) copies.emplace_back(image, rows);
+    }
+    pass.record = [copies = std::move(copies)](VkCommandBuffer commands) {
+        for (const auto& [image, rows] : copies) {
+            VkBufferImageCopy region{};
+            region.imageSubresource = {image->aspect(), 0, 0, 1};
+            region.imageExtent = {static_cast<std::uint32_t>(image->width),
+                                  static_cast<std::uint32_t>(image->height), 1};
+            vkCmdCopyImageToBuffer(commands, image->image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                   rows->buffer.get(), 1, &region);
+        }
+    };
+    graph.add(std::move(pass));
+}
+
 void record_mips(VkCommandBuffer commands, const GpuImage& image, int first)
 {
     const auto barrier = [&](int mip, VkImageLayout from, VkImageLayout to) {
