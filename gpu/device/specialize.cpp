@@ -45,15 +45,14 @@ public:
         for (const char* name : optimizer_.GetPassNames()) hasher.add(std::string(name));
     }
 
-    // Empty for one that does not hold.
-    std::vector<std::uint32_t> run(std::span<const std::uint32_t> code) const
+    // Empty for one that does not hold. Passes take for granted that it does; what passes made is not asked again.
+    std::vector<std::uint32_t> run(std::span<const std::uint32_t> code, bool made_by_passes = false) const
     {
         spvtools::OptimizerOptions options;
-        // Passes take for granted that it holds.
         spvtools::ValidatorOptions rules;
         rules.SetScalarBlockLayout(true);
         options.set_validator_options(rules);
-        options.set_run_validator(true);
+        options.set_run_validator(!made_by_passes);
         std::vector<std::uint32_t> words;
         if (!optimizer_.Run(code.data(), code.size(), &words, options)) return {};
         return words;
@@ -202,7 +201,7 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
     const CutDown cut_down(constants);
     const auto make = [&] {
         const std::vector<std::uint32_t> words = prepared(code, cache);
-        return words.empty() ? words : cut_down.run(words);
+        return words.empty() ? words : cut_down.run(words, true);
     };
     if (!cache.on()) return make();
     Hasher hasher;
