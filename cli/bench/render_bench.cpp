@@ -108,6 +108,7 @@ gpu::Frame bench_frame(const scene::Scene& scene, const RenderBenchOptions& opti
 FrameCost timed_render(gpu::Renderer& renderer, const gpu::Frame& frame, gpu::RenderResult& result)
 {
     FrameCost frame_cost;
+    result = {};  // or two pictures were there at a time
     frame_cost.cost = timed([&] { result = renderer.render(frame); });
     frame_cost.passes = result.passes;
     frame_cost.patch_light_cpu_ms = result.patch_light_cpu_ms;

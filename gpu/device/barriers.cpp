@@ -46,6 +46,12 @@ Needs needs_of(Use use)
         case Use::HostRead:
             return {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_HOST_BIT,
                     VK_ACCESS_2_HOST_READ_BIT, false};
+        case Use::SeenAsRows:
+            return {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                    VK_ACCESS_2_MEMORY_READ_BIT, false};
+        case Use::RowsOfImage:
+            return {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                    VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, true};
     }
     return {};
 }
@@ -78,7 +84,8 @@ std::optional<Dependency> advance(ResourceState& state, Use use, bool is_image)
                                 is_image ? needs.layout : state.layout};
     constexpr VkAccessFlags2 kWrites =
         VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+        VK_ACCESS_2_MEMORY_WRITE_BIT;
     state.layout = dependency.to_layout;
     state.write_stages = needs.stages;
     // A change of layout for a reader has written by itself: later readers chain to this stage.

@@ -22,6 +22,8 @@ enum class Use : std::uint8_t {
     TransferSource,
     TransferTarget,  ///< written by copies and blits, which may read it too (mip levels)
     HostRead,        ///< after the frame, by the host
+    SeenAsRows,      ///< image whose memory a buffer shows from here on (GpuBuffer::shows)
+    RowsOfImage,     ///< that buffer: what was written to the image is in it
 };
 
 /// What a use needs of the device.

@@ -1,5 +1,9 @@
 #include "gpu/device/graph.h"
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <ctime>
 #include <map>
@@ -86,6 +90,15 @@ VkRenderingAttachmentInfo attachment_info(const Attachment& attachment, Use use)
     info.loadOp = attachment.keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     return info;
+}
+
+// To the system. A frame takes its memory beside what the making of its pipelines has left, and so would what
+// comes behind it.
+void give_back_free_memory()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 void record_draws(const DrawPass& pass, VkCommandBuffer commands, PipelineCache& pipelines,
@@ -331,6 +344,7 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
         device.end_label(commands);
     };
     std::vector<double> cpu_ms(passes_.size(), 0.0);
+    bool many_made = false;
     if (device.passes_apart()) {
         device.run([&](VkCommandBuffer commands) { stamp(commands, 0); });
         for (std::size_t i = 0; i < passes_.size(); ++i) {
@@ -348,7 +362,10 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
                 record(commands, passes_[i]);
                 stamp(commands, i + 1);
             }
+            many_made = pipelines.made_many();
+            if (many_made) give_back_free_memory();
         });
+        if (many_made) give_back_free_memory();
     }
     std::vector<std::uint64_t> ticks(queries);
     check(vkGetQueryPoolResults(device.handle(), pool.get(), 0, queries,
@@ -386,6 +403,31 @@ std::string FrameGraph::describe() const
                 (written.empty() ? "nothing" : written) + "\n";
     }
     return text;
+}
+
+void add_rows(FrameGraph& graph, const std::string& name,
+              const std::vector<std::pair<GpuImage*, GpuBuffer*>>& images)
+{
+    TransferPass pass;
+    pass.name = name;
+    std::vector<std::pair<GpuImage*, GpuBuffer*>> copies;
+    for (const auto& [image, rows] : images) {
+        const bool shown = rows->shows == image;
+        pass.transfers.push_back({.image = image, .use = shown ? Use::SeenAsRows : Use::TransferSource});
+        pass.transfers.push_back({.buffer = rows, .use = shown ? Use::RowsOfImage : Use::TransferTarget});
+        if (!shown) copies.emplace_back(image, rows);
+    }
+    pass.record = [copies = std::move(copies)](VkCommandBuffer commands) {
+        for (const auto& [image, rows] : copies) {
+            VkBufferImageCopy region{};
+            region.imageSubresource = {image->aspect(), 0, 0, 1};
+            region.imageExtent = {static_cast<std::uint32_t>(image->width),
+                                  static_cast<std::uint32_t>(image->height), 1};
+            vkCmdCopyImageToBuffer(commands, image->image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                   rows->buffer.get(), 1, &region);
+        }
+    };
+    graph.add(std::move(pass));
 }
 
 void record_mips(VkCommandBuffer commands, const GpuImage& image, int first)

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu/device/pipelines.h"
@@ -193,6 +194,10 @@ private:
 
     std::vector<Pass> passes_;
 };
+
+/// Brings what was written to images into their rows (MemoryArena::image_in_rows), by copies where they lie elsewhere.
+void add_rows(FrameGraph& graph, const std::string& name,
+              const std::vector<std::pair<GpuImage*, GpuBuffer*>>& images);
 
 /// Fills the mips behind the first of every layer from that one by linear blits; the image must be in
 /// TransferTarget use and is left in that layout.

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "gpu/device/shaders.h"
 
@@ -213,6 +214,12 @@ void PipelineCache::end_picture(std::uint64_t kept)
     std::erase_if(pipelines_, [&](const auto& entry) { return entry.second.asked_by + kept < picture_; });
 }
 
+bool PipelineCache::made_many()
+{
+    constexpr std::size_t kMany = 8;
+    return std::exchange(made_, 0) >= kMany;
+}
+
 std::span<const std::uint32_t> PipelineCache::code(const std::string& shader) const
 {
     const auto added = added_.find(shader);
@@ -343,6 +350,7 @@ const Pipeline& PipelineCache::compute(const std::string& shader,
     entry.asked_by = picture_;
     std::unique_ptr<Pipeline>& slot = entry.pipeline;
     if (slot) return *slot;
+    ++made_;
     auto made = ahead_ ? ahead_->take(key) : nullptr;
     if (!made) made = make_compute({shader, specialization, sets}, layout(sets));
     for (const BindingTypes& set : sets) made->set_layouts.push_back(set_layout(set));
@@ -361,6 +369,7 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     entry.asked_by = picture_;
     std::unique_ptr<Pipeline>& slot = entry.pipeline;
     if (slot) return *slot;
+    ++made_;
     auto made = std::make_unique<Pipeline>();
     const Stage vertex(*device_, VK_SHADER_STAGE_VERTEX_BIT, desc.vertex, code(desc.vertex),
                        desc.specialization, cache_);

@@ -95,6 +95,9 @@ public:
     /// that was recorded with one may still run.
     void end_picture(std::uint64_t kept);
     std::size_t size() const { return pipelines_.size(); }
+    /// Many pipelines were made since this was asked last: their making, and the driver's at their first use, leave
+    /// free memory between what is kept.
+    bool made_many();
     VkDescriptorSetLayout set_layout(const BindingTypes& types);
 
 private:
@@ -114,6 +117,7 @@ private:
     };
     std::map<std::string, Entry> pipelines_;
     std::uint64_t picture_ = 0;
+    std::size_t made_ = 0;  // since made_many() was asked
     std::unique_ptr<Ahead> ahead_;
 };
 

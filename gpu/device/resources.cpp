@@ -77,7 +77,7 @@ MemoryArena::Place MemoryArena::place(const VkMemoryRequirements& needs,
     return {memory, 0, blocks_.back().mapped};
 }
 
-std::unique_ptr<GpuImage> MemoryArena::image(const ImageDesc& desc)
+std::unique_ptr<GpuImage> MemoryArena::unbound_image(const ImageDesc& desc, VkImageTiling tiling) const
 {
     const auto limit = static_cast<int>(device_->limits().maxImageDimension2D);
     if (desc.width < 1 || desc.height < 1 || desc.width > limit || desc.height > limit) {
@@ -106,36 +106,44 @@ std::unique_ptr<GpuImage> MemoryArena::image(const ImageDesc& desc)
     info.mipLevels = static_cast<std::uint32_t>(desc.mips);
     info.arrayLayers = static_cast<std::uint32_t>(desc.layers);
     info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.tiling = tiling;
     info.usage = desc.usage;
     VkImage image = VK_NULL_HANDLE;
     check(vkCreateImage(device_->handle(), &info, nullptr, &image), "creating an image");
     made->image = ImageHandle(device_->handle(), image);
     device_->name(VK_OBJECT_TYPE_IMAGE, image, desc.name);
-
-    VkMemoryRequirements needs{};
-    vkGetImageMemoryRequirements(device_->handle(), image, &needs);
-    const Place where = place(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true);
-    check(vkBindImageMemory(device_->handle(), image, where.memory, where.offset),
-          "binding an image");
-
-    const auto mips = static_cast<std::uint32_t>(desc.mips);
-    const VkImageViewType whole = desc.cube         ? VK_IMAGE_VIEW_TYPE_CUBE
-                                  : desc.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
-                                                    : VK_IMAGE_VIEW_TYPE_2D;
-    made->view = make_view(*device_, *made, whole, 0, mips);
-    device_->name(VK_OBJECT_TYPE_IMAGE_VIEW, made->view.get(), desc.name);
-    if (desc.mips > 1 || desc.layers > 1) {
-        const VkImageViewType slice =
-            desc.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
-        for (std::uint32_t mip = 0; mip < mips; ++mip) {
-            made->mip_views.push_back(make_view(*device_, *made, slice, mip, 1));
-        }
-    }
     return made;
 }
 
-std::unique_ptr<GpuBuffer> MemoryArena::buffer(const BufferDesc& desc)
+void MemoryArena::bind(GpuImage& made, const Place& where) const
+{
+    check(vkBindImageMemory(device_->handle(), made.image.get(), where.memory, where.offset),
+          "binding an image");
+    const auto mips = static_cast<std::uint32_t>(made.mips);
+    const VkImageViewType whole = made.cube         ? VK_IMAGE_VIEW_TYPE_CUBE
+                                  : made.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                                    : VK_IMAGE_VIEW_TYPE_2D;
+    made.view = make_view(*device_, made, whole, 0, mips);
+    device_->name(VK_OBJECT_TYPE_IMAGE_VIEW, made.view.get(), made.name);
+    if (made.mips > 1 || made.layers > 1) {
+        const VkImageViewType slice =
+            made.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+        for (std::uint32_t mip = 0; mip < mips; ++mip) {
+            made.mip_views.push_back(make_view(*device_, made, slice, mip, 1));
+        }
+    }
+}
+
+std::unique_ptr<GpuImage> MemoryArena::image(const ImageDesc& desc)
+{
+    auto made = unbound_image(desc, VK_IMAGE_TILING_OPTIMAL);
+    VkMemoryRequirements needs{};
+    vkGetImageMemoryRequirements(device_->handle(), made->image.get(), &needs);
+    bind(*made, place(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true));
+    return made;
+}
+
+std::unique_ptr<GpuBuffer> MemoryArena::unbound_buffer(const BufferDesc& desc) const
 {
     auto made = std::make_unique<GpuBuffer>();
     made->name = desc.name;
@@ -149,29 +157,79 @@ std::unique_ptr<GpuBuffer> MemoryArena::buffer(const BufferDesc& desc)
     check(vkCreateBuffer(device_->handle(), &info, nullptr, &buffer), "creating a buffer");
     made->buffer = BufferHandle(device_->handle(), buffer);
     device_->name(VK_OBJECT_TYPE_BUFFER, buffer, desc.name);
+    return made;
+}
 
-    VkMemoryRequirements needs{};
-    vkGetBufferMemoryRequirements(device_->handle(), buffer, &needs);
-    const VkMemoryPropertyFlags flags =
-        desc.host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
-                  : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    const Place where = place(needs, flags, false);
-    check(vkBindBufferMemory(device_->handle(), buffer, where.memory, where.offset),
+void MemoryArena::bind(GpuBuffer& made, const Place& where, const BufferDesc& desc) const
+{
+    check(vkBindBufferMemory(device_->handle(), made.buffer.get(), where.memory, where.offset),
           "binding a buffer");
-    made->mapped = desc.host ? where.mapped : nullptr;
+    made.mapped = desc.host ? where.mapped : nullptr;
 
     if (desc.texel_format != VK_FORMAT_UNDEFINED) {
         VkBufferViewCreateInfo view_info{};
         view_info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
-        view_info.buffer = buffer;
+        view_info.buffer = made.buffer.get();
         view_info.format = desc.texel_format;
         view_info.range = VK_WHOLE_SIZE;
         VkBufferView view = VK_NULL_HANDLE;
         check(vkCreateBufferView(device_->handle(), &view_info, nullptr, &view),
               "creating a buffer view");
-        made->texel_view = BufferViewHandle(device_->handle(), view);
+        made.texel_view = BufferViewHandle(device_->handle(), view);
     }
+}
+
+std::unique_ptr<GpuBuffer> MemoryArena::buffer(const BufferDesc& desc)
+{
+    auto made = unbound_buffer(desc);
+    VkMemoryRequirements needs{};
+    vkGetBufferMemoryRequirements(device_->handle(), made->buffer.get(), &needs);
+    const VkMemoryPropertyFlags flags =
+        desc.host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+                  : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    bind(*made, place(needs, flags, false), desc);
     return made;
+}
+
+bool MemoryArena::lies_in_rows(const ImageDesc& desc) const
+{
+    // Elsewhere such images are slow to draw into. Depth may change places with another.
+    if (device_->info().kind != "cpu" || desc.format == VK_FORMAT_D32_SFLOAT) return false;
+    VkImageFormatProperties can{};
+    return vkGetPhysicalDeviceImageFormatProperties(device_->physical(), desc.format, VK_IMAGE_TYPE_2D,
+                                                    VK_IMAGE_TILING_LINEAR, desc.usage, 0, &can) == VK_SUCCESS &&
+           can.maxExtent.width >= static_cast<std::uint32_t>(desc.width) &&
+           can.maxExtent.height >= static_cast<std::uint32_t>(desc.height);
+}
+
+ImageInRows MemoryArena::image_in_rows(const ImageDesc& desc, VkDeviceSize texel_bytes)
+{
+    const auto width = static_cast<VkDeviceSize>(std::max(desc.width, 0));
+    const BufferDesc rows{.name = desc.name + "_rows",
+                          .size = width * static_cast<VkDeviceSize>(std::max(desc.height, 0)) * texel_bytes,
+                          .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                   VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                          .texel_format = desc.format == VK_FORMAT_D32_SFLOAT ? VK_FORMAT_R32_SFLOAT : desc.format};
+    if (!lies_in_rows(desc)) return {image(desc), buffer(rows)};
+    auto own = unbound_image(desc, VK_IMAGE_TILING_LINEAR);
+    const VkImageSubresource first{own->aspect(), 0, 0};
+    VkSubresourceLayout lies{};
+    vkGetImageSubresourceLayout(device_->handle(), own->image.get(), &first, &lies);
+    if (lies.offset != 0 || lies.rowPitch != width * texel_bytes) return {image(desc), buffer(rows)};
+    auto shown = unbound_buffer(rows);
+    VkMemoryRequirements needs{};
+    VkMemoryRequirements besides{};
+    vkGetImageMemoryRequirements(device_->handle(), own->image.get(), &needs);
+    vkGetBufferMemoryRequirements(device_->handle(), shown->buffer.get(), &besides);
+    if ((needs.memoryTypeBits & besides.memoryTypeBits) == 0) return {image(desc), buffer(rows)};
+    needs.memoryTypeBits &= besides.memoryTypeBits;
+    needs.size = std::max(needs.size, besides.size);
+    needs.alignment = std::max(needs.alignment, besides.alignment);
+    const Place where = place(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false);
+    bind(*own, where);
+    bind(*shown, where, rows);
+    shown->shows = own.get();
+    return {std::move(own), std::move(shown)};
 }
 
 void upload_buffer(const Device& device, GpuBuffer& target, std::span<const std::byte> bytes,

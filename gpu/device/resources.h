@@ -34,7 +34,14 @@ struct GpuBuffer {
     BufferHandle buffer;
     BufferViewHandle texel_view;  ///< when made with a texel format
     std::byte* mapped = nullptr;  ///< host-visible buffers only
+    const GpuImage* shows = nullptr;  ///< the image whose memory it is; null: it has its own
     ResourceState state;
+};
+
+/// An image, and its texels row by row in a buffer: the same memory, or that of a copy (add_rows).
+struct ImageInRows {
+    std::unique_ptr<GpuImage> image;
+    std::unique_ptr<GpuBuffer> rows;
 };
 
 struct ImageDesc {
@@ -64,6 +71,9 @@ public:
 
     std::unique_ptr<GpuImage> image(const ImageDesc& desc);
     std::unique_ptr<GpuBuffer> buffer(const BufferDesc& desc);
+    /// An image of one level, and a buffer with a view of its texels. A CPU's images can lie row by row, so
+    /// that a pass that writes one has written the other.
+    ImageInRows image_in_rows(const ImageDesc& desc, VkDeviceSize texel_bytes);
     VkDeviceSize bytes() const { return bytes_; }
 
 private:
@@ -82,6 +92,11 @@ private:
         std::byte* mapped;
     };
     Place place(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags, bool image);
+    std::unique_ptr<GpuImage> unbound_image(const ImageDesc& desc, VkImageTiling tiling) const;
+    std::unique_ptr<GpuBuffer> unbound_buffer(const BufferDesc& desc) const;
+    void bind(GpuImage& image, const Place& where) const;
+    void bind(GpuBuffer& buffer, const Place& where, const BufferDesc& desc) const;
+    bool lies_in_rows(const ImageDesc& desc) const;
 
     const Device* device_;
     std::vector<Block> blocks_;

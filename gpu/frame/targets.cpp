@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "gpu/frame/frame_io.h"
@@ -41,6 +42,11 @@ VkDeviceSize texel_bytes(VkFormat format)
         default:
             return 4;
     }
+}
+
+std::pair<std::unique_ptr<GpuImage>, std::unique_ptr<GpuBuffer>> parted(ImageInRows both)
+{
+    return {std::move(both.image), std::move(both.rows)};
 }
 
 int divide_up(int value, int by)
@@ -107,26 +113,7 @@ void add_gbuffer_rows(FrameGraph& graph, FrameTargets& targets, const GBufferPar
     if (when) copies.emplace_back(targets.gbuffer.name.get(), targets.rows.name.get());
     GBUFFER_TABLE(ROW)
 #undef ROW
-    std::vector<Transfer> transfers;
-    for (const auto& [image, buffer] : copies) {
-        transfers.push_back({.image = image, .use = Use::TransferSource});
-        transfers.push_back({.buffer = buffer, .use = Use::TransferTarget});
-    }
-    graph.add(TransferPass{
-        "gbuffer_rows", std::move(transfers), [copies](VkCommandBuffer commands) {
-            for (const auto& [image, buffer] : copies) {
-                const bool depth = image->format == kDepthFormat;
-                VkBufferImageCopy region{};
-                region.imageSubresource = {
-                    depth ? VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT} : VkImageAspectFlags{VK_IMAGE_ASPECT_COLOR_BIT},
-                    0, 0, 1};
-                region.imageExtent = {static_cast<std::uint32_t>(image->width),
-                                      static_cast<std::uint32_t>(image->height), 1};
-                vkCmdCopyImageToBuffer(commands, image->image.get(),
-                                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer->buffer.get(), 1,
-                                       &region);
-            }
-        }});
+    add_rows(graph, "gbuffer_rows", copies);
 }
 
 VkDeviceSize light_lists_bytes(int width, int height, int light_words)
@@ -148,40 +135,33 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                                    VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, 0.0f, true);
     targets.nearest = make_sampler(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                    VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, 0.0f, true);
+    const auto desc = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
+        return ImageDesc{.name = name,
+                         .format = format,
+                         .width = width,
+                         .height = height,
+                         .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT};
+    };
     const auto target = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
-        return arena.image({.name = name,
-                            .format = format,
-                            .width = width,
-                            .height = height,
-                            .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT});
+        return arena.image(desc(name, format, usage));
+    };
+    const auto in_rows = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
+        return arena.image_in_rows(desc(name, format, usage), texel_bytes(format));
     };
     // Drawn into, or written by the resolve of a visibility buffer.
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
                                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
-    targets.gbuffer.depth =
-        target("depth", kDepthFormat,
-               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    std::tie(targets.gbuffer.depth, targets.rows.depth) =
+        parted(in_rows("depth", kDepthFormat,
+                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
 #define ROW(name, location, format, when, meaning) \
-    targets.gbuffer.name = target(#name, VK_FORMAT_##format, color);
+    std::tie(targets.gbuffer.name, targets.rows.name) = parted(in_rows(#name, VK_FORMAT_##format, color));
     GBUFFER_TABLE(ROW)
 #undef ROW
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
-    const auto rows = [&](const char* name, VkFormat format) {
-        return arena.buffer({.name = name,
-                             .size = static_cast<VkDeviceSize>(width) *
-                                     static_cast<VkDeviceSize>(height) * texel_bytes(format),
-                             .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                             .texel_format = format});
-    };
-    targets.rows.depth = rows("depth_rows", VK_FORMAT_R32_SFLOAT);
-#define ROW(name, location, format, when, meaning) \
-    targets.rows.name = rows(#name "_rows", VK_FORMAT_##format);
-    GBUFFER_TABLE(ROW)
-#undef ROW
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
 
     const int block = GLOW_BLOCK;

@@ -102,6 +102,7 @@ Lobes lobes_of(int level)
         }
     }
     lobes.first.push_back(static_cast<std::uint32_t>(lobes.shares.size()));
+    lobes.shares.shrink_to_fit();  // kept as long as the program runs
     return lobes;
 }
 

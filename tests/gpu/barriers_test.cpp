@@ -112,6 +112,25 @@ TEST(Barriers, ReadersInDifferentLayoutsFollowEachOther)
     EXPECT_EQ(host->from_stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
 }
 
+// The image is written, then read through a buffer on its memory; what writes the image next waits for that.
+TEST(Barriers, RowsWaitForTheirImageAndItForThem)
+{
+    ResourceState image = after({Use::StorageWrite}, kImage);
+    const auto shown = advance(image, Use::SeenAsRows, kImage);
+    ASSERT_TRUE(shown);
+    EXPECT_EQ(shown->from_access, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    EXPECT_EQ(shown->to_stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+    ResourceState rows;
+    advance(rows, Use::RowsOfImage, kBuffer);
+    const auto read = advance(rows, Use::TexelRead, kBuffer);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->from_stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+    EXPECT_EQ(read->from_access, VK_ACCESS_2_MEMORY_WRITE_BIT);
+    const auto again = advance(image, Use::StorageWrite, kImage);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->from_stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+}
+
 TEST(Barriers, WritersAndReadersAreToldApart)
 {
     for (const Use use :

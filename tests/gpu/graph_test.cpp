@@ -334,6 +334,62 @@ TEST_F(GraphTest, GlareIsTheSameWithAndWithoutFilters)
     expect_silence();
 }
 
+// Widths whose rows lie without gaps on a CPU, and one that leaves some: what is written to the image is in the
+// buffer either way, again after a second write.
+TEST_F(GraphTest, RowsHoldWhatWasWrittenToTheirImage)
+{
+    for (const int width : {16, 48, 5}) {
+        constexpr int kHeight = 7;
+        const ImageInRows both = arena->image_in_rows(
+            {.name = "picture",
+             .format = VK_FORMAT_R32G32_UINT,
+             .width = width,
+             .height = kHeight,
+             .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT},
+            8);
+        ASSERT_EQ(both.rows->size, static_cast<VkDeviceSize>(width * kHeight * 8));
+        if (device->info().kind == "cpu") {
+            EXPECT_EQ(both.rows->shows, width == 5 ? nullptr : both.image.get()) << width;
+        }
+        const auto from = arena->buffer({.name = "from",
+                                         .size = both.rows->size,
+                                         .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                         .host = true});
+        const auto to = arena->buffer({.name = "to",
+                                       .size = both.rows->size,
+                                       .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                       .host = true});
+        for (const std::uint32_t seed : {1u, 77u}) {
+            std::vector<std::uint32_t> words(both.rows->size / 4);
+            for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint32_t>(i) * 2654435761u + seed;
+            std::memcpy(from->mapped, words.data(), both.rows->size);
+            FrameGraph graph;
+            graph.add(TransferPass{.name = "write",
+                                   .transfers = {{both.image.get(), nullptr, Use::TransferTarget},
+                                                 {nullptr, from.get(), Use::TransferSource}},
+                                   .record = [&](VkCommandBuffer commands) {
+                                       VkBufferImageCopy region{};
+                                       region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+                                       region.imageExtent = {static_cast<std::uint32_t>(width), kHeight, 1};
+                                       vkCmdCopyBufferToImage(commands, from->buffer.get(), both.image->image.get(),
+                                                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+                                   }});
+            add_rows(graph, "rows", {{both.image.get(), both.rows.get()}});
+            graph.add(TransferPass{.name = "read",
+                                   .transfers = {{nullptr, both.rows.get(), Use::TransferSource},
+                                                 {nullptr, to.get(), Use::TransferTarget}},
+                                   .record = [&](VkCommandBuffer commands) {
+                                       const VkBufferCopy region{0, 0, both.rows->size};
+                                       vkCmdCopyBuffer(commands, both.rows->buffer.get(), to->buffer.get(), 1, &region);
+                                   }});
+            graph.read_back({to.get()});
+            graph.execute(*device, *pipelines, *descriptors);
+            EXPECT_EQ(std::memcmp(to->mapped, words.data(), both.rows->size), 0) << width;
+        }
+    }
+    expect_silence();
+}
+
 // The check itself works: a storage write declared as a read leaves the next reader without its
 // barrier, and validation says so. Without this, silence above would prove nothing.
 TEST_F(GraphTest, ABindingThatLiesAboutItsUseIsCaught)

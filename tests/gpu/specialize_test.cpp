@@ -4,8 +4,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <vector>
 
+#include "gpu/device/by_value.h"
 #include "gpu/device/shaders.h"
 
 namespace petrichor::gpu {
@@ -57,6 +60,38 @@ TEST_F(Specialize, NoShaderOfOursIsLeftToTheDriver)
     ASSERT_GT(embedded_shaders().size(), 50u);
     for (const EmbeddedShader& shader : embedded_shaders())
         EXPECT_FALSE(specialized(shader.code, {}).empty()) << shader.name;
+}
+
+// Addresses stay where a function writes: what it only reads comes as a value, and it is the same shader.
+TEST_F(Specialize, ArgumentsThatAreReadComeAsValues)
+{
+    const auto pointers = [](std::span<const std::uint32_t> words) {
+        constexpr std::uint32_t kTypePointer = 32, kParameter = 55, kOfFunction = 7;
+        std::vector<std::uint32_t> types;
+        int count = 0;
+        for (std::size_t at = 5; at < words.size() && words[at] >> 16 > 0; at += words[at] >> 16) {
+            if ((words[at] & 0xffffu) == kTypePointer && words[at + 2] == kOfFunction) types.push_back(words[at + 1]);
+            if ((words[at] & 0xffffu) == kParameter) count += std::count(types.begin(), types.end(), words[at + 1]) > 0;
+        }
+        return count;
+    };
+    constexpr std::uint32_t kParameter = 55, kCall = 57;
+    const auto values = by_value(lighting);
+    EXPECT_EQ(count_of(values, kParameter), count_of(lighting, kParameter));
+    EXPECT_EQ(count_of(values, kCall), count_of(lighting, kCall));
+    EXPECT_GT(pointers(lighting), 400);
+    EXPECT_LT(pointers(values), pointers(lighting) / 5);
+    EXPECT_GT(pointers(values), 0);
+    EXPECT_EQ(by_value(values), values) << "nothing is left to do";
+}
+
+TEST_F(Specialize, WhatIsNoShaderStaysAsItIs)
+{
+    const std::vector<std::uint32_t> noise(100, 0xdeadbeefu);
+    EXPECT_EQ(by_value(noise), noise);
+    EXPECT_TRUE(by_value({}).empty());
+    for (std::size_t size = 1; size < lighting.size(); size += lighting.size() / 97)
+        EXPECT_GE(by_value(lighting.first(size)).size(), size);
 }
 
 TEST_F(Specialize, ShadersThatCannotBeReadAreLeftToTheDriver)

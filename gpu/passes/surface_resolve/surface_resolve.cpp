@@ -63,19 +63,16 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
                                   int width, int height)
 {
     ResolveTables tables;
-    tables.ids =
-        arena.image({.name = "ids",
-                     .format = VK_FORMAT_R32G32_UINT,
-                     .width = width,
-                     .height = height,
-                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-    tables.id_rows = arena.buffer({.name = "id_rows",
-                                   .size = static_cast<VkDeviceSize>(width) *
-                                           static_cast<VkDeviceSize>(height) * 8,
-                                   .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                   .texel_format = VK_FORMAT_R32G32_UINT});
+    ImageInRows ids = arena.image_in_rows({.name = "ids",
+                                           .format = VK_FORMAT_R32G32_UINT,
+                                           .width = width,
+                                           .height = height,
+                                           .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                                    VK_IMAGE_USAGE_SAMPLED_BIT |
+                                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
+                                          8);
+    tables.ids = std::move(ids.image);
+    tables.id_rows = std::move(ids.rows);
     const bool shares = scene.layer_shares();
     tables.shares = arena.image({.name = "layer_shares",
                                  .format = VK_FORMAT_R32G32B32A32_UINT,
@@ -127,20 +124,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     const auto materials = static_cast<std::uint32_t>(scene.materials().size());
     GpuBuffer& counts = *tables.counts;
     // Read twice to list the pixels and once to shade them: as texels of a buffer in half the time.
-    GpuImage& ids = *tables.ids;
     GpuBuffer& id_rows = *tables.id_rows;
-    graph.add(TransferPass{.name = "tile_materials",
-                           .transfers = {{&ids, nullptr, Use::TransferSource},
-                                         {nullptr, &id_rows, Use::TransferTarget}},
-                           .record = [&ids, &id_rows](VkCommandBuffer commands) {
-                               VkBufferImageCopy region{};
-                               region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-                               region.imageExtent = {static_cast<std::uint32_t>(ids.width),
-                                                     static_cast<std::uint32_t>(ids.height), 1};
-                               vkCmdCopyImageToBuffer(commands, ids.image.get(),
-                                                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                                      id_rows.buffer.get(), 1, &region);
-                           }});
+    add_rows(graph, "tile_materials", {{tables.ids.get(), &id_rows}});
     graph.add(TransferPass{.name = "tile_materials",
                            .transfers = {{nullptr, &counts, Use::TransferTarget}},
                            .record = [&counts](VkCommandBuffer commands) {
