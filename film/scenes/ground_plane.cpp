@@ -27,7 +27,9 @@ constexpr int kTexels = 1024;      // a side, of the asphalt
 constexpr int kSegments = 128;
 constexpr float kNextRing = 1.09f;  // the radius of a ring of vertices over that of the one inside
 constexpr float kInnerRing = 0.06f, kFineRings = 40.0f;  // times the scene's size ..
-constexpr float kOutermostRing = 300.0f, kHorizon_m = 4000.0f;            // .. whichever is wider: what ends nearer is a second horizon in haze
+// Where it ends: what ends nearer is a second horizon, what ends farther is all air. For the eye of a framing camera its rim is a pixel
+// of 720 rows below the horizon.
+constexpr float kOutermostRing = 1150.0f, kLeastOutermost = 300.0f, kHorizon_m = 4000.0f;
 constexpr float kFarRing = 2.5f;   // likewise of rings beyond the fine ones
 constexpr float kClose = 0.025f;   // of the scene's size: ground so close below it is left out where it is hidden
 const vec3 kColor(0.150f, 0.150f, 0.149f);
@@ -330,7 +332,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
     add(vec2(0.0f));
     std::vector<float> rings;
     for (float ring = kInnerRing; ring < kFineRings; ring *= kNextRing) rings.push_back(ring);
-    const float outermost = std::max(kOutermostRing, kHorizon_m / around);
+    const float outermost = std::clamp(kHorizon_m / around, kLeastOutermost, kOutermostRing);
     for (float ring = kFineRings; ring < outermost; ring *= kFarRing) rings.push_back(ring);
     rings.push_back(outermost);
     for (const float ring : rings) {
