@@ -29,8 +29,9 @@ SHARED_FN SeenLobe seen_lobe(vec3 normal, vec3 mirrored, float roughness)
     const float lifted = sqrt(lifted2);
     const float along = sqrt((1.0f - lifted2) / max(1.0f - up2, 1.0e-6f));
     SeenLobe seen;
-    seen.direction = normalize(normal * lifted + (mirrored - normal * up) * along);
-    seen.roughness = roughness * (0.45f + 0.55f * up / max(lifted, up));
+    // Unit as both are.
+    seen.direction = mirrored * along + normal * (lifted - up * along);
+    seen.roughness = roughness * (0.45f + 0.55f * min(up / lifted, 1.0f));
     return seen;
 }
 
