@@ -28,6 +28,7 @@
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/patch_cells.h"
 #include "formulas/light/reflection_probe.h"
+#include "formulas/light/seen_lobe.h"
 #include "formulas/light/second_lobe.h"
 #include "formulas/light/shadow_plane.h"
 #include "formulas/light/skin.h"
@@ -385,7 +386,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 rough = rough_mirror_direction(probe_direction(b.x, b.y), probe_direction(c.x, c.y), a.w);
         const uint band_word = probe_band_word(2.0f * vec2(a.x, c.z) - splat2(1.0f));
         const vec2 bands = probe_bands_of_word(band_word) * (1.0f / kProbeBandOne);
-        return vec4(way.x + way.y, way.z + rough.x, reflection_probe_weight(share, 1.0f + a.w, p) + bands.x,
+        const vec3 over = probe_direction(b.x, b.y), mirrored = probe_direction(c.x, c.y);
+        const SeenLobe seen = seen_lobe(over, dot(over, mirrored) < 0.0f ? -mirrored : mirrored, a.w);
+        return vec4(way.x + way.y + seen.direction.x, way.z + rough.x + seen.direction.z + seen.roughness, reflection_probe_weight(share, 1.0f + a.w, p) + bands.x,
                     blend.y + ggx_band(int(8.999f * b.z), c.w) + bands.y);
     }
     if (kind == 43) {
@@ -482,7 +485,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         // Within cells: at their borders the last bit chooses another.
         const vec2 at = 0.034f * (floor(40.0f * vec2(a.x, a.y)) + splat2(0.5f));
         const float over = 0.05f * (b.y - 0.5f);
-        return vec4(snow_body_share(0.07f * a.z, over, at, a.w), snow_body_code(0.07f * b.x), settled_snow_m(0.07f * a.z, over), 0.0f);
+        const vec2 slope = thaw_slope(at, 0.1f * c.x, a.w);
+        return vec4(snow_body_share(0.07f * a.z, over, at, a.w) + snow_body_at(0.07f * a.z, over, at, a.w).wets, snow_body_code(0.07f * b.x) + slope.x,
+                    settled_snow_m(0.07f * a.z, over) + slope.y, slush_share(0.07f * a.z, b.y, at, a.w));
     }
     if (kind == 56) {
         const vec2 st = 2.0f * vec2(a.y, a.z) - splat2(1.0f);

@@ -237,6 +237,9 @@ void add_weather_rows(std::vector<Row>& t)
     t.push_back(number<&M::weather, &W::default_height>(
         "default_height", 0, 1, place("defaultHeight"),
         "height where the material has no height map: 0 low .. 1 high; low places fill first"));
+    t.push_back(number<&M::weather, &W::hollow_tiling>(
+        "hollow_tiling", 0.05f, 50, place("hollowTiling"),
+        "how many times narrower than a step the hollows are that water stands in, where the material has no height map"));
     t.push_back(number<&M::weather, &W::water_slope_damp>(
         "water_slope_damp", 0, 1, place("waterSlopeDamp"),
         "0 water stays on any slope .. 1 the less the steeper, none on walls"));

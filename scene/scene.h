@@ -71,6 +71,7 @@ struct MaterialWeather {
     float parallax_steps = 20.0f;
     float parallax_level = -1.0f;  ///< of the height map's mips; negative: by the pixel's footprint
     float default_height = 0.25f;
+    float hollow_tiling = 1.0f;  ///< hollows of ground without a height map: how many times narrower than a step
     TextureUse puddle_mask;  ///< 1 puddles may stand, 0 never
     TextureUse snow_mask;    ///< 1 snow may lie, 0 never
     float porosity = -1.0f;  ///< negative: from the roughness

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kFramingFov_rad = 35.0 * kDegree;
-constexpr double kThingElevation_rad = 20.0 * kDegree;
+constexpr double kThingElevation_rad = 14.0 * kDegree;  // by eye: the horizon is a tenth below the picture's upper edge
 constexpr double kThing = 0.35, kLand = 0.15;  // height over width of what is no land, and of what is
 constexpr double kLandFrom_m = 15.0, kLand_m = 40.0;  // and how wide
 constexpr double kLandShare = 0.75;  // of a land's points that are seen at least
@@ -190,7 +190,8 @@ scene::Camera framing_camera(const Framing& framing, double aspect)
         low = glm::dvec3(-0.5);
         high = glm::dvec3(0.5);
     }
-    // A thing is seen from above; a land as a photographer would take it, with its horizon in the picture.
+    // Below the horizon, which is in the picture: without it ground is an endless sheet. A land is seen from lower, as a
+    // photographer would take it.
     const glm::dvec3 size = high - low;
     const double width = std::max(size.x, size.z);
     const double land = std::clamp((kThing - size.y / width) / (kThing - kLand), 0.0, 1.0) *

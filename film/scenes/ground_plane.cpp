@@ -26,9 +26,13 @@ constexpr double kFilled = 0.8;    // of them, of a scene with ground
 constexpr int kTexels = 1024;      // a side, of the asphalt
 constexpr int kSegments = 128;
 constexpr float kNextRing = 1.09f;  // the radius of a ring of vertices over that of the one inside
-constexpr float kInnerRing = 0.06f, kFineRings = 40.0f, kOutermostRing = 300.0f;  // times the scene's size
+constexpr float kInnerRing = 0.06f, kFineRings = 40.0f;  // times the scene's size ..
+// Where it ends: what ends nearer is a second horizon, what ends farther is all air. For the eye of a framing camera its rim is a pixel
+// of 720 rows below the horizon.
+constexpr float kOutermostRing = 1150.0f, kLeastOutermost = 300.0f, kHorizon_m = 4000.0f;
+constexpr float kFarRing = 2.5f;   // likewise of rings beyond the fine ones
 constexpr float kClose = 0.025f;   // of the scene's size: ground so close below it is left out where it is hidden
-const vec3 kColor(0.222f, 0.224f, 0.226f);
+const vec3 kColor(0.150f, 0.150f, 0.149f);
 
 // Calls back with each of `cells` times `cells` cells that a triangle covers when seen from above.
 template <class Covers>
@@ -216,7 +220,7 @@ float lay_asphalt(scene::Scene& scene, scene::Material& material)
     recipe.kind = texproc::MaterialKind::Asphalt;
     recipe.size = kTexels;
     recipe.seed = 11;
-    recipe.values = {{"tile_m", 1.6f}, {"stone_m", 0.009f}, {"wear", 0.7f}, {"cracks", 0.0f},
+    recipe.values = {{"tile_m", 1.6f}, {"stone_m", 0.007f}, {"wear", 0.5f}, {"cracks", 0.0f},
                      {"stains", 0.0f}};
     recipe.color = kColor;
     texproc::MaterialMaps maps = texproc::generate_material(recipe);
@@ -249,7 +253,7 @@ float stains(const vec2& at, float around)
     for (std::uint32_t octave = 0; octave < 9; ++octave, wide *= 2.0f) {
         const float shows = glm::smoothstep(2.0f * between, 5.0f * between, wide);
         const float noise = shared::tileable_noise(at / wide + 37.7f, 1024, 401u + octave);
-        tone += 0.16f * shows * (noise - 0.5f);
+        tone += 0.24f * shows * (noise - 0.5f);
     }
     return std::clamp(tone, 0.6f, 1.4f);
 }
@@ -308,6 +312,10 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
     scene::Material material;
     material.name = "default ground";
     material.weather.beads = 0.0f;
+    // Puddles as wide as what stands there, by eye: below a helmet those of a street would be seas.
+    material.weather.hollow_tiling = std::clamp(1.6f / around, 1.0f, 5.0f);
+    material.weather.flow_tiling = 2.0f * material.weather.hollow_tiling;
+    material.weather.flow_normal_strength = 1.0f / material.weather.hollow_tiling;
     const float tile_m = lay_asphalt(scene, material);
 
     scene::Primitive disc;
@@ -324,7 +332,9 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
     add(vec2(0.0f));
     std::vector<float> rings;
     for (float ring = kInnerRing; ring < kFineRings; ring *= kNextRing) rings.push_back(ring);
-    rings.insert(rings.end(), {kFineRings, 100.0f, kOutermostRing});
+    const float outermost = std::clamp(kHorizon_m / around, kLeastOutermost, kOutermostRing);
+    for (float ring = kFineRings; ring < outermost; ring *= kFarRing) rings.push_back(ring);
+    rings.push_back(outermost);
     for (const float ring : rings) {
         for (int s = 0; s < kSegments; ++s) {
             const float angle = 6.2831853f * static_cast<float>(s) / kSegments;

@@ -121,6 +121,13 @@ SHARED_FN WeatheredMaterial apply_snow(WeatheredMaterial under, float cover, vec
     return snowy;
 }
 
+// melt_exp of a frame as it shows: the first melt already fills the gaps between the grains. Rises from 0 to 1.
+SHARED_FN float melt_shown(float melt_exp)
+{
+    const float left = 1.0f - saturate(melt_exp);
+    return 1.0f - left * left * left * left;
+}
+
 // Share of its albedo that melting snow keeps. Its grains grow and water fills the gaps between them: wet snow sends back
 // four fifths of what fresh snow does, and where it is thin at its edges, slush on what it lies on, a half (Oke 1987 has
 // 0.95 of fresh snow and 0.40 of old). The numbers between are ours.
@@ -129,14 +136,14 @@ SHARED_FN WeatheredMaterial apply_snow(WeatheredMaterial under, float cover, vec
 SHARED_FN float melting_snow(float cover, float melt_exp)
 {
     const float thin = 1.0f - smooth_edge(0.45f, 1.0f, cover);
-    return 1.0f - saturate(melt_exp) * (0.2f + 0.3f * thin);
+    return 1.0f - melt_shown(melt_exp) * (0.2f + 0.3f * thin);
 }
 
 // Its water makes it smoother, up to that of a film on what is rough.
 SHARED_FN float melting_smoothness(float smoothness, float cover, float melt_exp)
 {
     const float thin = 1.0f - smooth_edge(0.45f, 1.0f, cover);
-    return mix(smoothness, max(smoothness, 0.6f), saturate(melt_exp) * (0.3f + 0.7f * thin));
+    return mix(smoothness, max(smoothness, 0.6f), melt_shown(melt_exp) * (0.3f + 0.7f * thin));
 }
 
 // Albedo with the light that snow scatters towards grazing eyes (Lux 2.02, diffuse scattering). facing:

@@ -26,19 +26,64 @@ SHARED_FN float settled_snow_m(float deep_m, float over_m)
     return min(deep_m - 0.7f * thin * clamp(over_m, -0.02f, 0.02f), 4.0f * deep_m);
 }
 
-// Share of the body at a place x, z of the world, metres, 0..1. Fresh snow ends where it is a centimetre deep, give or
+// How far a pack thaws, by melt_exp of the weather of the frame, 0..1: it is grey and full of water long before it is gone.
+SHARED_FN float snow_thaws(float melt_exp)
+{
+    return clamp(3.0f * melt_exp, 0.0f, 1.0f);
+}
+
+struct SnowBody {
+    float share;  // of the body, 0..1
+    float wets;   // how far its melt soaks the ground beside it, 0..1
+};
+
+// At a place x, z of the world, metres. Fresh snow ends where it is a centimetre deep, give or
 // take; melting snow goes in patches of a hand's to a foot's width, ragged to a finger's, by depths up to five, and its edge is
-// thin slush. Rises with the depth, 0 at 0 and 1 from SNOW_BODIED_M on, and falls with the thaw. Ours; widths and depths
-// chosen by eye.
+// a rim of thin slush on wet ground. The share rises with the depth, 0 at 0 and 1 from SNOW_BODIED_M on, and falls with the
+// thaw. Ours; widths and depths chosen by eye.
 //   over_m    as settled_snow_m
 //   melt_exp  of the weather of the frame, 0..1
-SHARED_FN float snow_body_share(float deep_m, float over_m, vec2 place_m, float melt_exp)
+SHARED_FN SnowBody snow_body_at(float deep_m, float over_m, vec2 place_m, float melt_exp)
 {
     const float n = 0.52f * endless_noise(place_m / 0.34f, 71u) + 0.28f * endless_noise(place_m / 0.093f, 72u) +
                     0.2f * endless_noise(place_m / 0.027f, 73u);
-    const float thaw = clamp(3.0f * melt_exp, 0.0f, 1.0f);
+    const float thaw = snow_thaws(melt_exp);
     const float needed_m = mix(0.007f, mix(0.014f, 0.05f, thaw), clamp((n - 0.5f) * 1.9f + 0.5f, 0.0f, 1.0f));
-    return smooth_edge(needed_m - 0.006f, min(needed_m + mix(0.006f, 0.012f, thaw), SNOW_BODIED_M), settled_snow_m(deep_m, over_m));
+    const float settled_m = settled_snow_m(deep_m, over_m);
+    SnowBody body;
+    body.share = smooth_edge(needed_m - 0.006f, min(needed_m + mix(0.006f, 0.017f, thaw), SNOW_BODIED_M), settled_m);
+    body.wets = thaw * smooth_edge(needed_m - 0.024f, needed_m - 0.004f, settled_m);
+    return body;
+}
+
+SHARED_FN float snow_body_share(float deep_m, float over_m, vec2 place_m, float melt_exp)
+{
+    return snow_body_at(deep_m, over_m, place_m, melt_exp).share;
+}
+
+// What of a thawing pack is slush, 0..0.8: grey and half transparent. Where it lies in water, which runs below it in gutters; and
+// in blotches where it is thin, for what dirt fell with it lies on the last of it. Ours, by eye.
+//   soaked  share of standing water below it
+SHARED_FN float slush_share(float deep_m, float soaked, vec2 place_m, float melt_exp)
+{
+    const float n = 0.6f * endless_noise(place_m / 0.83f, 74u) + 0.4f * endless_noise(place_m / 0.19f, 75u);
+    const float thin = 1.0f - smooth_edge(0.02f, SNOW_BODIED_M, deep_m);
+    const float dirty = smooth_edge(0.4f, 0.75f, n) * (0.12f + 0.4f * thin);
+    return snow_thaws(melt_exp) * min(soaked * (0.35f + 0.25f * thin) + dirty, 0.8f);
+}
+
+// Slope of the surface of a thawing pack, along x and z: the sun and the air eat hollows into it, a hand's to a foot's wide,
+// deepest where it goes first. width_m: of the pixel on the ground. Ours, by eye.
+SHARED_FN vec2 thaw_slope(vec2 place_m, float width_m, float melt_exp)
+{
+    const float step_m = 0.012f;
+    vec3 n;
+    for (int k = 0; k < 3; ++k) {
+        const vec2 at = place_m + vec2(k == 1 ? step_m : 0.0f, k == 2 ? step_m : 0.0f);
+        n[k] = 0.52f * endless_noise(at / 0.34f, 71u) + 0.28f * endless_noise(at / 0.093f, 72u);
+    }
+    const float strength = 0.1f * snow_thaws(melt_exp) * sqrt(1.0f - variance_lost(width_m, 0.05f));
+    return (vec2(n.y, n.z) - splat2(n.x)) * (-strength / step_m);
 }
 
 SHARED_END

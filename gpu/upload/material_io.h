@@ -46,6 +46,7 @@
     X(float, film)                 \
     X(float, beads)                \
     X(float, default_height)       \
+    X(float, hollow_tiling)        \
     X(float, height_scale_m)       \
     X(float, parallax_steps)       \
     X(float, parallax_level)       \
@@ -269,7 +270,7 @@ struct MaterialConstants {
     TextureSlot slots[MATERIAL_TEXTURE_SLOTS];
 };
 #undef MATERIAL_FIELD
-#define MATERIAL_WORD_COUNT 381
+#define MATERIAL_WORD_COUNT 382
 #ifdef __cplusplus
 static_assert(sizeof(MaterialConstants) == 4 * MATERIAL_WORD_COUNT);
 #endif

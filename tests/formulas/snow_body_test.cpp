@@ -75,6 +75,46 @@ TEST(SnowBodyShare, FreshSnowLiesEvenlyAndMeltingSnowInPatches)
     EXPECT_GT(same, 850);
 }
 
+TEST(SnowBodyShare, ThawingSnowIsSlushWhereItIsThinOrLiesInWater)
+{
+    double thin = 0.0, deep = 0.0, slopes = 0.0;
+    constexpr std::uint32_t kPlaces = 2000;
+    for (std::uint32_t i = 0; i < kPlaces; ++i) {
+        const vec2 at = somewhere(i);
+        EXPECT_EQ(slush_share(0.02f, 1.0f, at, 0.0f), 0.0f) << "in frost";
+        EXPECT_EQ(glm::length(thaw_slope(at, 0.0f, 0.0f)), 0.0f);
+        float before = 0.0f;
+        for (const float soaked : {0.0f, 0.3f, 0.7f, 1.0f}) {
+            const float share = slush_share(0.02f, soaked, at, 0.3f);
+            EXPECT_GE(share, before);
+            EXPECT_LE(share, 0.8f);
+            EXPECT_GE(share, slush_share(0.05f, soaked, at, 0.3f));
+            before = share;
+        }
+        EXPECT_GT(slush_share(0.06f, 1.0f, at, 0.4f), 0.3f) << "what lies in a gutter that runs";
+        thin += static_cast<double>(slush_share(0.015f, 0.0f, at, 1.0f)) / kPlaces;
+        deep += static_cast<double>(slush_share(0.06f, 0.0f, at, 1.0f)) / kPlaces;
+        slopes += static_cast<double>(thaw_slope(at, 0.0f, 1.0f).x) / kPlaces;
+        EXPECT_LT(glm::length(thaw_slope(at, 0.5f, 1.0f)), glm::length(thaw_slope(at, 0.0f, 1.0f)) + 1e-6f);
+    }
+    EXPECT_GT(thin, 2.0 * deep);
+    EXPECT_NEAR(slopes, 0.0, 0.02) << "it leans no way in the mean";
+}
+
+// Beside what is left of it the ground is wet, and nowhere in frost.
+TEST(SnowBodyShare, MeltSoaksTheGroundBesideIt)
+{
+    int beside = 0;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        const vec2 at = somewhere(i);
+        EXPECT_EQ(snow_body_at(0.02f, 0.0f, at, 0.0f).wets, 0.0f);
+        const SnowBody body = snow_body_at(0.02f, 0.0f, at, 1.0f);
+        beside += body.share == 0.0f && body.wets > 0.3f ? 1 : 0;
+        if (body.share > 0.1f) EXPECT_GT(body.wets, 0.9f);
+    }
+    EXPECT_GT(beside, 100);
+}
+
 TEST(SnowBodyShare, ACodeTellsTheDepth)
 {
     for (const float deep : {0.0f, 0.01f, 0.03f, 0.06f})

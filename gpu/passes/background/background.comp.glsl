@@ -43,7 +43,14 @@ vec3 land_behind_air(vec3 radiance, vec3 direction)
 {
     if ((frame.flags & FRAME_LAND) == 0u || direction.y >= 0.0) return radiance;
     // Where the ground of the scene goes on it is that ground, told without air; near the horizon the sky's own.
-    const float known = frame.land.w * smoothstep(0.0, 0.02, -direction.y);
+    const float below = smoothstep(0.0, 0.02, -direction.y);
+    const float known = frame.land.w * below;
+    vec3 level = vec3(0.0);
+    if (FOG != 0u) {
+        // The map has less air before what is just below the horizon than before the sky over it: at dusk that was a bright line.
+        level = textureLod(sky_map, over_horizon(vec3(direction.x, 0.0, direction.z)), 0.0).rgb;
+        radiance = mix(level * frame.sky_scale, radiance, below);
+    }
     radiance = mix(radiance, frame.land.rgb, known);
     if (FOG == 0u) return radiance;
     const float path_m =
@@ -54,7 +61,6 @@ vec3 land_behind_air(vec3 radiance, vec3 direction)
     const float kept = fog_kept(frame.fog_mode, max(path_m, 0.0), frame.fog_per_m, frame.fog_start_m,
                                 frame.fog_end_m) * exp(drawn);
     // At the horizon the air is that of the sky above it; below, that of what stands on the land.
-    const vec3 level = textureLod(sky_map, over_horizon(vec3(direction.x, 0.0, direction.z)), 0.0).rgb;
     const vec3 veil = mix(level, textureLod(sky_map, air_level(direction), kAirMip).rgb,
                           smoothstep(0.0, 0.04, -direction.y));
     return mix(veil * frame.sky_scale, radiance, min(kept, 1.0));

@@ -3,6 +3,8 @@
 #ifndef PETRICHOR_LIGHTING_ROUGH_MIRROR_GLSL
 #define PETRICHOR_LIGHTING_ROUGH_MIRROR_GLSL
 
+#include "formulas/light/seen_lobe.h"
+
 // All of it is told out, with numbers for indices: a CPU's driver reads arrays by number at a tenth of the price.
 #define EACH_PROBE(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u) DO(6u) DO(7u)
 
@@ -91,8 +93,8 @@ ProbesHere probes_here(LitPoint p, Ambient around)
 vec3 rough_mirror(LitPoint p, Ambient around, ProbesHere probed, vec3 normal, float roughness)
 {
     const vec3 ray = reflect(-p.view, normal);
-    const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);
-    const vec3 sky = sky_lobe(ray, lod);
+    const SeenLobe seen = seen_lobe(normal, ray, roughness);
+    const vec3 sky = sky_lobe(seen.direction, seen.roughness * float(SKY_PREFILTER_MIPS - 1));
     const vec3 even = sky * around.mirrored;
     if (PROBES == 0u) return even;
     const vec4 lobe = probed_lobe(probed, rough_mirror_direction(normal, ray, roughness), roughness * roughness);

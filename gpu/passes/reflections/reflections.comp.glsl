@@ -8,6 +8,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #define FRAME_BY_WORDS
 #include "gpu/frame/gbuffer.glsl"
+#include "formulas/light/seen_lobe.h"
 #include "formulas/noise/noise.h"
 #include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/reflections/reflections_io.h"
@@ -255,7 +256,8 @@ void main()
         const vec3 view = pixel_view_direction(frame, pixel);
         const vec3 n = octahedral_decode(shape.xy);
         const float roughness = shape.z;
-        vec3 reflected = reflect(view, n);
+        // Of the maps of the sky and of probes.
+        const SeenLobe lobe = seen_lobe(n, reflect(view, n), roughness);
         const float view_m = linear_depth(frame, depth);
 
         // A facet of the lobe a sample: at a grazing angle they make a streak. By the plastic number, since two
@@ -280,14 +282,14 @@ void main()
             // Water stands above the relief that the depth map knows.
             hit = trace(position + n * (0.001 * view_m + 0.015 * mirror.a), ray);
         }
-        const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);
-        const vec3 sky = textureLod(specular_map, reflected, lod).rgb;
+        const float lod = lobe.roughness * float(SKY_PREFILTER_MIPS - 1);
+        const vec3 sky = textureLod(specular_map, lobe.direction, lod).rgb;
         // A ray that met nothing saw the sky if the place sees much of it.
         const float open = clamp(shape.w * 1.3 - 0.05, 0.0, 1.0);
         vec3 mirrored = sky * mix(frame.bounce * 0.7, 1.0, open);
         float probed_share = 0.0;
         if (PROBES != 0u) {
-            const Probed probed = probes_around(int(PROBES), position, reflected, roughness);
+            const Probed probed = probes_around(int(PROBES), position, lobe.direction, lobe.roughness);
             // What stands near here and not around the probe hides its sky.
             const float here = clamp(open / max(probed.open, 0.1), 0.0, 1.0);
             const vec3 around = probed.light.rgb * frame.ambient_scale +

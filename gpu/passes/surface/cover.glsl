@@ -75,7 +75,8 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     // Deep snow knows no relief below it.
     const bool bodied = (SNOW & SNOW_BODY) != 0u && at.weather.a <= 0.0;
     const float over_m = SNOW != 0u && !bodied ? stands_over_m(at) : 0.0;
-    const float body = snow_body(at, over_m);
+    const SnowBody own_body = snow_body(at, over_m);
+    const float body = own_body.share;
     const float amount = max(saturate(amount_raw), body);
     const vec3 smoothed = normalize(
         to_world(f, normalize(mix(mapped, vec3(0.0, 0.0, 1.0), saturate(amount_raw * 0.5)))));
@@ -85,7 +86,10 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     // A patch knows how steep it is; of the pixel its relief alone counts.
     const float up = here.placed ? min(smoothed.y + 1.0 - saturate(at.normal.y), 1.0) : smoothed.y;
     if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up, over_m, ledge);
-    if ((SNOW & SNOW_BODY) != 0u) snow.snow = max(snow.snow, body);
+    if ((SNOW & SNOW_BODY) != 0u) {
+        snow.snow = max(snow.snow, body);
+        snow.melt = max(snow.melt, own_body.wets);
+    }
 
     StandingWater water;
     water.anywhere = 0.0;
@@ -107,6 +111,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         water.anywhere = max(water.anywhere, max(water.below, pond.anywhere));
         water.deep = max(water.deep, max(smooth_edge(0.0005, 0.006, water.depth_m), pond.deep));
     }
+    const float soaked = water.anywhere;
     if ((SNOW & SNOW_BODY) != 0u) {
         water.anywhere *= 1.0 - body;
         water.deep *= 1.0 - body;
@@ -164,6 +169,16 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
             const vec3 lean = vec3(trodden.slope.x, 0.0, trodden.slope.y);
             relief.normal = normalize(relief.normal - lean * amount);
             c.snow *= 1.0 - 0.12 * trodden.pressed;  // dense snow is darker
+        }
+        if ((SNOW & SNOW_BODY) != 0u) {
+            // A loop that ends at once in frost: a CPU takes both sides of a branch.
+            for (int k = 0; k < (frame.weather.melt_exp > 0.0 ? 1 : 0); ++k) {
+                const float thaws = at.weather.a < 0.999 ? 1.0 : 0.0;
+                const vec3 wide = max(abs(at.position_dx), abs(at.position_dy));
+                const vec2 slope = thaw_slope(at.position.xz, max(wide.x, wide.z), frame.weather.melt_exp) * thaws;
+                relief.normal = normalize(relief.normal - vec3(slope.x, 0.0, slope.y));
+                c.snow *= 1.0 - thaws * slush_share(snow_deep_m(at), soaked, at.position.xz, frame.weather.melt_exp);
+            }
         }
         c.snow_smoothness = relief.smoothness;
         c.normal = normalize(mix(c.normal, relief.normal, saturate(snow_share)));

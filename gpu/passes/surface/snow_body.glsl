@@ -6,11 +6,13 @@
 #include "gpu/passes/surface/surface_bindings.glsl"
 #include "gpu/passes/surface/surface_data.glsl"
 
-// Share of snow of its own at a point; 0 on all that is not snow. over_m: as stands_over_m().
-float snow_body(SurfaceInput at, float over_m)
+float snow_deep_m(SurfaceInput at) { return (1.0 - at.weather.a) * SNOW_BODIED_M; }
+
+// Snow of its own at a point; none on all that is not snow. over_m: as stands_over_m().
+SnowBody snow_body(SurfaceInput at, float over_m)
 {
-    if ((SNOW & SNOW_BODY) == 0u || at.weather.a >= 0.999) return 0.0;
-    return snow_body_share((1.0 - at.weather.a) * SNOW_BODIED_M, over_m, at.position.xz, frame.weather.melt_exp);
+    if ((SNOW & SNOW_BODY) == 0u || at.weather.a >= 0.999) return SnowBody(0.0, 0.0);
+    return snow_body_at(snow_deep_m(at), over_m, at.position.xz, frame.weather.melt_exp);
 }
 
 // The point of the ground below: there the maps, the patches and the masks of the world lie.

@@ -35,8 +35,8 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
     } else {
         const vec2 dx = at.position_dx.xz;
         const vec2 dy = at.position_dy.xz;
-        const float width_m = sqrt(max(dot(dx, dx), dot(dy, dy)));
-        height += kGroundRelief * ground_relief_seen(at.position.xz, width_m);
+        const float width_m = material.hollow_tiling * sqrt(max(dot(dx, dx), dot(dy, dy)));
+        height += kGroundRelief * ground_relief_seen(at.position.xz * material.hollow_tiling, width_m);
         blurred = kGroundRelief * ground_relief_blurred(width_m);
     }
     float puddle_mask = at.weather.g;
