@@ -336,8 +336,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 30) {
         const vec3 from = probe_direction(0.5f + 0.5f * a.x, a.y);
         const float facing = facing_share(probe_direction(a.z, a.w), from);
-        return vec4(facing + snow_facing_share(facing), film_share(b.x),
-                    flood_share(b.y), cover_of_share(b.z, 1.5f * b.w));
+        const FallShares shares = fall_shares(a.x * a.x);
+        return vec4(facing + snow_facing_share(facing), film_share(b.x) + shares.film,
+                    flood_share(b.y) + shares.flood, cover_of_share(b.z, 1.5f * b.w));
     }
     if (kind == 31) {
         const vec2 xz = vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f);

@@ -1,5 +1,6 @@
 // The frame: which passes run, in which order. Read it as a table of contents.
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -242,8 +243,9 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
         const int i = fall.direction;
         c.arrays.falls[k++] = fall_constants(maps.sky_views[static_cast<std::size_t>(i)], sky_direction(i), fall);
     }
-    c.flow_size = r.surface_maps->flow->width;
-    c.snow_size = r.surface_maps->snow->width;
+    c.ripple_bits = std::bit_width(static_cast<unsigned>(r.surface_maps->ripple->width)) - 1;
+    c.flow_bits = std::bit_width(static_cast<unsigned>(r.surface_maps->flow->width)) - 1;
+    c.snow_bits = std::bit_width(static_cast<unsigned>(r.surface_maps->snow->width)) - 1;
     const TrackMap& tracks = r.surface_maps->track_area;
     if (tracks.width > 0) {
         c.tracks =
@@ -272,11 +274,11 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
 
 // The triangles that the samples of a range may show; they look from one eye, the picture alone is moved.
 std::shared_ptr<const SeenDraws> seen_triangles(const Frame& frame, const Sun& sun,
-                                                const FrameResources& r, SampleRange range)
+                                                const FrameResources& r, SampleRange range, const VisibleWeather& weather)
 {
     const FrameSettings& s = frame.settings;
     const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
-    SampledView view{c.world_to_clip, s.width, s.height, {}, r.over_snow ? Covered::kFromEye : std::uint8_t{0}, {}};
+    SampledView view{c.world_to_clip, s.width, s.height, {}, r.over_snow ? Covered::kFromEye : std::uint8_t{0}, {}, listed_steep(weather)};
     for (std::uint32_t i = range.first; i < range.end; ++i)
         view.offsets.push_back(sample_offset(i, s.seed));
     std::vector<bool> alone(r.scene->draws().size());
@@ -480,7 +482,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     ConstantsRange constants{r.constants, 0};
     // Samples that do not see the same points light them each for itself.
     const bool apart = frame.lens.radius_m > 0.0f || !frame.shutter.empty();
-    const auto seen = apart ? nullptr : seen_triangles(frame, sun, r, range);
+    const auto seen = apart ? nullptr : seen_triangles(frame, sun, r, range, weather);
     for (std::uint32_t i = range.first; i < range.end; ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         if (soft_sun(frame, sun)) look_from_sun(graph, frame, sun, i, r);

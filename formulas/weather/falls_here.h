@@ -50,6 +50,21 @@ SHARED_FN float flood_share(float share)
     return min((1.0f - exp(-4.0f * share)) * 1.0186574f, 1.0f);
 }
 
+// Both of one place.
+struct FallShares {
+    float film;
+    float flood;
+};
+SHARED_FN FallShares fall_shares(float share)
+{
+    const float dry = exp(-2.0f * share);
+    const float dry_2 = dry * dry;
+    FallShares shares;
+    shares.film = 1.0f - dry_2 * dry_2 * dry;
+    shares.flood = min((1.0f - dry_2) * 1.0186574f, 1.0f);
+    return shares;
+}
+
 // Of a cover that approaches 1 exponentially as more falls: the one that a share of it leaves.
 SHARED_FN float cover_of_share(float cover, float share)
 {

@@ -116,8 +116,9 @@ struct FrameConstants {
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
-    int flow_size;    // texels a side of the maps of waves and of snow
-    int snow_size;
+    int ripple_bits;  // the maps of rings, waves and snow have 2^bits texels a side
+    int flow_bits;
+    int snow_bits;
     vec4 tracks;      // world x and z of the map's corner, repeats of it per metre along both
     vec2 tracks_y_m;  // heights between which it counts
     PatchGrid patches;  // levels 0: none

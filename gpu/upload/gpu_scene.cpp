@@ -248,6 +248,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
         draw.most_indices = draw.index_count;
         if (draw.overlay) overlay_counts_.push_back(std::exchange(draw.index_count, 0));
     }
+    steep_ = steep_triangles(draws_, materials_, vertices, indices);
     // Compute shaders fetch corners through texel views; a scene beyond their size has none.
     const std::size_t texels = std::max(vertices.size() * (sizeof(Vertex) / 16), indices.size());
     as_texels_ = texels > 0 && texels <= device.limits().maxTexelBufferElements;

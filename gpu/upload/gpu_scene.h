@@ -13,6 +13,7 @@
 #include "gpu/upload/material_io.h"
 #include "gpu/upload/emissive_lights.h"
 #include "gpu/upload/pose.h"
+#include "gpu/upload/steep_triangles.h"
 #include "gpu/upload/texture.h"
 #include "gpu/upload/vertex.h"
 #include "scene/material_table.h"
@@ -92,6 +93,7 @@ struct GpuMaterial {
     bool decal_weather = false;        ///< as a decal it brings its own
     bool looks = false;                ///< some instance has other values than it
     bool on_shapes = false;            ///< some marched shape shows it
+    bool sheds = true;                 ///< only what falls puts water on it: none stands where it is steep
     bool in_world = true;              ///< what shows it is laid out in the world, and stays
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
@@ -137,6 +139,7 @@ public:
     {
         return covered_[static_cast<std::size_t>(&draw - draws_.data())];
     }
+    const SteepTriangles& steep() const { return steep_; }
     /// Shows of every thing the level of detail that this camera wants. `scale` makes things count as
     /// larger. True when what casts shadows has changed.
     bool choose_levels(const Camera& camera, float scale);
@@ -231,6 +234,7 @@ private:
     std::vector<std::uint32_t> overlay_counts_;  // indices of the overlay's draws, in their order
     bool overlaid_ = false;
     std::vector<std::vector<std::uint8_t>> covered_;  // of each draw
+    SteepTriangles steep_;
     std::vector<Light> rest_lights_;
     std::vector<GlowSource> rest_glow_sources_;
     Bounds rest_bounds_, posed_bounds_;  // the second without what own surfaces move

@@ -209,6 +209,9 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                        (one_read(source, c) ? BESIDES_ONE_READ : 0u) |
                        (wide_ground_[index] ? BESIDES_WIDE_GROUND : 0u);
     if (mirrors_as_glass(material, c)) material.besides |= BESIDES_AS_CLEARED;
+    const glm::vec4& holds = c.water_accumulation;
+    const glm::vec4& other = c.second_water_accumulation;
+    material.sheds = std::max(holds.x, holds.z) <= 0.0f && std::max(other.x, other.z) <= 0.0f;
     material.water &= ~WATER_BEADS;
     if (material.water != 0 && source.weather.beads > 0.0f) material.water |= WATER_BEADS;
     if (material.layers != 0) c.lighting_model = set_layers(material, source);

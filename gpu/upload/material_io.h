@@ -197,6 +197,7 @@
 #define WATER_RIPPLES 2u
 #define WATER_FLOWS 4u
 #define WATER_BEADS 8u  // and: it stands in beads
+#define WATER_STEEP 16u  // of what is so steep that none stands on it (gpu/upload/steep_triangles.h)
 
 // How its height map moves what is seen (scene::Parallax).
 #define PARALLAX_NONE 0u

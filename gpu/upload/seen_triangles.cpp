@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu/upload/draw.h"
+#include "gpu/upload/steep_io.h"
 
 namespace petrichor::gpu {
 
@@ -124,6 +125,7 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
         const std::uint32_t triangles = draw->index_count / 3;
         const std::span<const std::uint8_t> covered =
             view.hidden != 0 ? scene.covered(*draw) : std::span<const std::uint8_t>();
+        const std::span<const std::uint8_t> steep = scene.steep().triangles[static_cast<std::size_t>(draw - scene.draws().data())];
         // An eye sees faces that look up; the others it may see from below.
         const bool by_side = (view.hidden & Covered::kFromEye) != 0;
         const float seen_sign = draw->mirrored ? 1.0f : -1.0f;
@@ -169,7 +171,7 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
                 continue;  // behind the eye
             }
             std::copy_n(index, 3, out_indices + 3 * used_);
-            out_numbers[used_++] = t;
+            out_numbers[used_++] = t | (t < steep.size() && (steep[t] & view.steep) != 0 ? ID_STEEP : 0u);
         }
         seen->ranges[static_cast<std::size_t>(draw - scene.draws().data())] = {
             3 * first, 3 * (static_cast<std::uint32_t>(used_) - first)};

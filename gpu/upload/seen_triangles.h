@@ -20,6 +20,7 @@ struct SampledView {
     std::vector<glm::vec2> offsets{glm::vec2(0.0f)};  ///< of the samples, pixels from the middle of one
     std::uint8_t hidden = 0;  ///< from where the overlay hides what lies below it: Covered::kFrom..
     AskedPart asked;  ///< of a view without perspective: what of it counts
+    std::uint8_t steep = 0;  ///< SteepTriangles: what is marked in the numbers
 };
 
 /// Indices of those of a draw's triangles that some sample may meet, in the order of the draw.
@@ -34,7 +35,7 @@ struct SeenRange {
 struct SeenDraws {
     std::vector<SeenRange> ranges;
     const GpuBuffer* indices = nullptr;
-    GpuBuffer* numbers = nullptr;  ///< R32UI: which triangle of its draw the n-th of `indices` is
+    GpuBuffer* numbers = nullptr;  ///< R32UI: which triangle of its draw the n-th of `indices` is; ID_STEEP of those that are
 };
 
 /// A CPU driver shades and sorts every triangle on one thread, before it knows whether a pixel shows it. Here

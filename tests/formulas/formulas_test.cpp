@@ -429,6 +429,11 @@ TEST(FallsHere, SharesAreWholeInTheOpenAndNoneWhereNothingFalls)
         EXPECT_NEAR(share(1.0f), 1.0f, 1e-4f);
         EXPECT_GT(share(0.3f), 0.3f) << "wet sooner than in proportion";
     }
+    for (const float share : {0.0f, 0.02f, 0.3f, 1.0f, 2.5f}) {
+        const FallShares both = fall_shares(share);
+        EXPECT_NEAR(both.film, film_share(share), 1e-6f);
+        EXPECT_NEAR(both.flood, flood_share(share), 1e-6f);
+    }
     EXPECT_NEAR(cover_of_share(0.6f, 1.0f), 0.6f, 1e-6f);
     EXPECT_EQ(cover_of_share(0.6f, 0.0f), 0.0f);
     // Half the snow: the cover of half the depth, by 1 - exp(-depth).

@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/passes/adaptive/adaptive_io.h"
+#include "gpu/upload/steep_io.h"
 
 layout(local_size_x = ADAPTIVE_TILE, local_size_y = ADAPTIVE_TILE) in;
 layout(binding = ADAPTIVE_ASK_FRAME, scalar) uniform Frame { FrameConstants frame; };
@@ -21,7 +22,7 @@ const float kBeyond = 0.01;  // of the distance, over what the two samples span
 bool is_known(ivec2 texel)
 {
     const uvec2 before = texelFetch(seen, texel, 0).xy;
-    const uint draw = texelFetch(ids, texel, 0).r;
+    const uint draw = texelFetch(ids, texel, 0).r & ID_DRAW;
     if (draw != before.x) return false;
     if (draw == 0u) return true;
     const vec2 range_m = unpackHalf2x16(before.y);

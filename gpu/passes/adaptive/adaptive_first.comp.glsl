@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/passes/adaptive/adaptive_io.h"
+#include "gpu/upload/steep_io.h"
 
 layout(local_size_x = ADAPTIVE_TILE, local_size_y = ADAPTIVE_TILE) in;
 layout(binding = ADAPTIVE_FIRST_FRAME, scalar) uniform Frame { FrameConstants frame; };
@@ -17,7 +18,7 @@ void main()
 {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, frame.size))) return;
-    const uint draw = texelFetch(ids, texel, 0).r;
+    const uint draw = texelFetch(ids, texel, 0).r & ID_DRAW;
     const float depth_m = draw != 0u ? linear_depth(frame, texelFetch(depth_map, texel, 0).r) : 0.0;
     imageStore(seen, texel, uvec4(draw, floatBitsToUint(depth_m), 0u, 0u));
     imageStore(light, texel, texelFetch(lit, texel, 0));

@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/passes/adaptive/adaptive_io.h"
+#include "gpu/upload/steep_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 
 layout(local_size_x = ADAPTIVE_TILE, local_size_y = ADAPTIVE_TILE) in;
@@ -48,7 +49,7 @@ void main()
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, frame.size))) return;
     const uvec2 first = imageLoad(seen, texel).xy;
-    const uint draw = texelFetch(ids, texel, 0).r;
+    const uint draw = texelFetch(ids, texel, 0).r & ID_DRAW;
     const float first_m = uintBitsToFloat(first.y);
     const float depth_m = draw != 0u ? linear_depth(frame, texelFetch(depth_map, texel, 0).r) : 0.0;
     vec4 first_light;

@@ -99,7 +99,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     water.below = 0.0;
     water.stands_m = 0.0;
     if (WATER != 0u) water = water_on(at, here);
-    if (max(here.pond_m, water.depth_m) > 0.0) {
+    if (!is_steep() && max(here.pond_m, water.depth_m) > 0.0) {
         // A pond drowns what stands in it by and by.
         WaterCover pond = pond_cover(here.pond_m, water.stands_m);
         if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
@@ -138,7 +138,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     Wave flow;
     flow.lean = vec3(0.0);
     flow.up = 1.0;
-    if ((WATER & WATER_RIPPLES) != 0u && frame.weather.rain * open > 0.0 && water.deep > 0.0 &&
+    if ((WATER & WATER_RIPPLES) != 0u && !is_steep() && frame.weather.rain * open > 0.0 && water.deep > 0.0 &&
         fade > 0.001) {
         ripple = ripple_normal(at, water, open);
     }
@@ -149,13 +149,17 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     const vec4 bent = normalize(vec4(rings + flow.lean, ripple.z * flow.up));
     const vec3 shift = rings * (frame.look.ripple_refraction * material.ripple_refraction) +
                        flow.lean * material.flow_refraction;
-    c.refraction = vec2(dot(shift, f.tangent), dot(shift, f.bitangent)) * water.deep *
-                   (1.0 - saturate(2.0 * snow.snow)) *
-                   saturate(1.0 - here.frozen + water_accumulation(at).z) *
-                   fade;
+    if (!is_steep()) {
+        c.refraction = vec2(dot(shift, f.tangent), dot(shift, f.bitangent)) * water.deep *
+                       (1.0 - saturate(2.0 * snow.snow)) *
+                       saturate(1.0 - here.frozen + water_accumulation(at).z) *
+                       fade;
+    }
     // Water that stands is level, whatever the ground below; what runs follows it.
-    const vec3 still = normalize(
-        mix(at.normal, vec3(0.0, 1.0, 0.0), level_share(at.normal.y, water.anywhere)));
+    vec3 still = at.normal;
+    if (!is_steep()) {
+        still = normalize(mix(at.normal, vec3(0.0, 1.0, 0.0), level_share(at.normal.y, water.anywhere)));
+    }
     c.normal = normalize(bent.xyz * fade + still * max(mix(1.0, bent.w, fade), 0.05));
 
     c.water = water.anywhere;

@@ -137,7 +137,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     vec3 normal = at.normal;
     if (has_mapped_normal()) {
         // Seen through water: at another place.
-        const bool again = SURFACE_WEATHER == 0 || WATER != 0u || !bumps_come_first();
+        const bool again = SURFACE_WEATHER == 0 || (WATER != 0u && !is_steep()) || !bumps_come_first();
         normal = normalize(to_world(f, again ? mapped_normal(at, f, shift) : mapped));
     }
     shed_film(cover, normal);

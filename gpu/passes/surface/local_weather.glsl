@@ -26,12 +26,12 @@ LocalWeather weather_everywhere(SurfaceInput at, bool asked)
     LocalWeather here;
     const Exposure open = exposure_to_sky(at, asked);
     here.open = min(open.rain, 1.0);
-    here.film = film_share(open.rain);
+    const FallShares shares = fall_shares(open.rain);
+    here.film = shares.film;
     // Beside patches the frame's film is a closed one (gpu/frame/frame_constants.h): how much of it
     // lies in the open is told by its water.
     if (PLACE != 0u && frame.place.grid.levels > 0u) here.film *= wetness_of_film(frame.weather.film_mm);
-    here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) *
-                 flood_share(open.rain);
+    here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) * shares.flood;
     here.snow = 0.0;
     if (SNOW != 0u) {
         here.snow = cover_of_share(frame.weather.snow_amount, open.snow * drifted_share(at.position.xz));
@@ -60,8 +60,9 @@ void below_what_is_near(inout LocalWeather here, SurfaceInput at)
 {
     const Exposure open = exposure_to_sky(at, true);
     here.open *= min(open.rain, 1.0);
-    here.film *= film_share(open.rain);
-    if (!here.volume) here.flood *= flood_share(open.rain);
+    const FallShares shares = fall_shares(open.rain);
+    here.film *= shares.film;
+    if (!here.volume) here.flood *= shares.flood;
     if (SNOW != 0u) here.snow = cover_of_share(here.snow, open.snow * drifted_share(at.position.xz));
     here.frost *= min(open.sky, 1.0);
 }
@@ -83,6 +84,13 @@ uint patch_of_material(SurfaceInput at, uvec2 near, vec3 turn)
     return found == uint(place_state(near.x, 3).w) ? near.y : near.x;
 }
 
+// Below the water of a hollow; what is steep stands in none (gpu/upload/steep_triangles.cpp).
+float pond_m(SurfaceInput at)
+{
+    if ((WATER & WATER_STEEP) != 0u) return 0.0;
+    return at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
+}
+
 LocalWeather local_weather(SurfaceInput at)
 {
     if (PLACE == 0u) return weather_everywhere(at, true);
@@ -99,7 +107,7 @@ LocalWeather local_weather(SurfaceInput at)
     if (beyond && place_open(at.normal, at.material_id)) near = uvec2(frame.place.open_patch);
     if (near.y == kNoPatch) {
         LocalWeather everywhere = weather_everywhere(at, true);
-        everywhere.pond_m = at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
+        everywhere.pond_m = pond_m(at);
         return everywhere;
     }
     const vec4 first_texel = place_state(near.y, 0);
@@ -112,7 +120,7 @@ LocalWeather local_weather(SurfaceInput at)
     here.frost = second_texel.x;
     here.frozen = second_texel.y;
     here.still = 1.0 - exp2(-10.0 * here.frozen);
-    here.pond_m = at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
+    here.pond_m = pond_m(at);
     here.volume = WATER != 0u && second_texel.w > 0.0;
     here.level = here.volume ? level_in_relief(at, near, second_texel.w) : 0.0;
     here.placed = true;

@@ -18,8 +18,8 @@ struct Exposure {
 vec3 stray(SurfaceInput at)
 {
     const float tiling = 0.7;
-    const int level = quad_level(frame.snow_size, at.position_dx.xz * tiling, at.position_dy.xz * tiling);
-    const vec2 wander = quad_texel(snow_quads, frame.snow_size, at.position.xz * tiling, level) - 0.5;
+    const int level = quad_level(frame.snow_bits, at.position_dx.xz * tiling, at.position_dy.xz * tiling);
+    const vec2 wander = quad_texel(snow_quads, frame.snow_bits, at.position.xz * tiling, level) - 0.5;
     const vec2 way = (5.0 * wander + 0.7 * on_circle(dither(at.pixel, frame.sample_index + 3u))) * frame.shelter_spread_m;
     const vec3 flat_way = vec3(way.x, 0.0, way.y);
     return flat_way - at.normal * dot(at.normal, flat_way);

@@ -16,6 +16,9 @@ struct StandingWater {
     float stands_m;  // how high the relief stands in the shallows of a hollow
 };
 
+// Only what falls reaches it (WATER_STEEP): no puddles, no rings, nothing to look through.
+bool is_steep() { return (WATER & WATER_STEEP) != 0u; }
+
 // By the level of the weather here, in cracks and puddles, the material's influence on it, and its constant;
 // or by the level of the water that a patch holds.
 // A material that brings a height map says where water goes, and its hollows hold some on slopes of up
@@ -28,6 +31,14 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
     const float levelness =
         mapped ? smooth_edge(0.55, 0.9, at.normal.y) : level_ground(at.normal.y);
     const vec2 flood = (here.volume ? vec2(0.0) : weather * levelness) + holds.xz;
+    StandingWater water;
+    water.anywhere = 0.0;
+    water.deep = 0.0;
+    water.runs = saturate(weather.y) * (1.0 - levelness);
+    water.depth_m = 0.0;
+    water.below = 0.0;
+    water.stands_m = 0.0;
+    if (is_steep()) return water;
     float height = material.default_height;
     float blurred = 0.0;
     if (mapped) {
@@ -45,12 +56,10 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
     }
     const WaterCover cover =
         water_cover_of_mean(flood, height, puddle_mask, at.normal.y, material.water_slope_damp, blurred);
-    StandingWater water;
-    water.anywhere = cover.anywhere;
-    water.deep = cover.deep;
-    water.runs = saturate(weather.y) * (1.0 - levelness);
-    water.depth_m = 0.0;
-    water.below = 0.0;
+    // A wide pixel knows no hollows where nothing stands in them.
+    const float any = max(flood.x, flood.y) > 0.0 ? 1.0 : 0.0;
+    water.anywhere = cover.anywhere * any;
+    water.deep = cover.deep * any;
     const float unit_m = mapped && material.height_scale_m > 0.0 ? material.height_scale_m : kGroundReliefUnit_m;
     // Half of it: the mesh is the mean of its ground.
     water.stands_m = 0.5 * unit_m * (mapped ? height : height - material.default_height);
@@ -70,7 +79,7 @@ vec3 ripple_normal(SurfaceInput at, StandingWater water, float open)
 {
     const float tiling = frame.look.ripple_tiling;
     // Of whole levels a CPU reads one.
-    const int level = quad_level(textureSize(ripple_map, 0).x, at.position_dx.xz * tiling, at.position_dy.xz * tiling);
+    const int level = quad_level(frame.ripple_bits, at.position_dx.xz * tiling, at.position_dy.xz * tiling);
     const vec2 xy = textureLod(ripple_map, at.position.xz * tiling, float(level)).xy;
     return mix(vec3(0.0, 0.0, 1.0), unpack_normal(xy, frame.look.ripple_strength),
                water.deep * saturate(at.normal.y) * saturate(open * 2.0));
@@ -90,9 +99,9 @@ const float kStill = 1.0 / 1024.0;
 vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
 {
     const float t = material.flow_tiling;
-    const int level = quad_level(frame.flow_size, p_dx * t, p_dy * t);
-    const vec2 first = quad_texel(flow_quads, frame.flow_size, p * t + phases.first * v, level);
-    const vec2 second = quad_texel(flow_quads, frame.flow_size, p * t + phases.second * v, level);
+    const int level = quad_level(frame.flow_bits, p_dx * t, p_dy * t);
+    const vec2 first = quad_texel(flow_quads, frame.flow_bits, p * t + phases.first * v, level);
+    const vec2 second = quad_texel(flow_quads, frame.flow_bits, p * t + phases.second * v, level);
     return unpack_normal(mix(first, second, phases.blend), material.flow_normal_strength);
 }
 

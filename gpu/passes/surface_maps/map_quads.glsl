@@ -2,40 +2,36 @@
 #ifndef PETRICHOR_MAP_QUADS_GLSL
 #define PETRICHOR_MAP_QUADS_GLSL
 
-// The first level lies at the left, the others one below the other beside it.
-int quads_pitch(int size)
+// Maps have 2^bits texels a side. A level of s texels a side lies from s * s on, so the next one ends before it.
+int quads_place(int bits, int level, ivec2 texel)
 {
-    return size + max(size / 2, 1);
+    const int side = 1 << (bits - level);
+    return ((side + texel.y) << (bits - level)) + texel.x;
 }
 
-ivec2 quads_corner(int size, int level)
+// Red and green of a map, linear between the texels of one level.
+vec2 quad_texel(usamplerBuffer quads, int bits, vec2 uv, int level)
 {
-    return level == 0 ? ivec2(0) : ivec2(size, size - (size >> (level - 1)));
-}
-
-// Red and green of a map of `size` texels a side, linear between the texels of one level.
-vec2 quad_texel(usamplerBuffer quads, int size, vec2 uv, int level)
-{
-    const int side = max(size >> level, 1);
+    const int side = 1 << (bits - level);
     const vec2 p = fract(uv) * float(side) - 0.5;
     const vec2 low = floor(p);
     const vec2 share = p - low;
-    // Left of the first texel is the last one. A coordinate that rounds up to 1 reads the last, too.
-    const ivec2 texel = ivec2(low) + ivec2(low.x < 0.0 ? side : 0, low.y < 0.0 ? side : 0);
-    const ivec2 place = quads_corner(size, level) + texel;
-    const uvec2 quad = texelFetch(quads, place.y * quads_pitch(size) + place.x).rg;
+    // Left of the first texel is the last one.
+    const ivec2 texel = ivec2(low) & (side - 1);
+    const uvec2 quad = texelFetch(quads, quads_place(bits, level, texel)).rg;
     const vec4 above = vec4(uvec4(quad.x, quad.x >> 8, quad.x >> 16, quad.x >> 24) & 255u);
     const vec4 below = vec4(uvec4(quad.y, quad.y >> 8, quad.y >> 16, quad.y >> 24) & 255u);
     const vec4 rows = above + (below - above) * share.y;
     return (rows.xy + (rows.zw - rows.xy) * share.x) * (1.0 / 255.0);
 }
 
-// The level whose texels are nearest to as far apart as steps of the picture; dx, dy: repeats of the map.
-int quad_level(int size, vec2 dx, vec2 dy)
+// The level whose texels are nearest to as far apart as steps of the picture; dx, dy: repeats of the map. Half the
+// logarithm of their square, rounded, is half the exponent of twice the square.
+int quad_level(int bits, vec2 dx, vec2 dy)
 {
-    const float texels = float(size);
-    const float level = 0.5 * log2(max(dot(dx, dx), dot(dy, dy)) * texels * texels + 1.0e-12);
-    return clamp(int(level + 0.5), 0, findMSB(size));
+    const float texels = float(1 << bits);
+    const int twice = floatBitsToInt(max(dot(dx, dx), dot(dy, dy)) * (2.0 * texels * texels));
+    return clamp(((twice >> 23) - 127) >> 1, 0, bits);
 }
 
 #endif

@@ -51,7 +51,7 @@ std::unique_ptr<GpuBuffer> quads_of(MemoryArena& arena, const char* name, const 
 {
     const auto size = static_cast<VkDeviceSize>(image.width);
     return arena.buffer({.name = name,
-                         .size = (size + std::max<VkDeviceSize>(size / 2, 1)) * size * 8,
+                         .size = 2 * size * size * 8,
                          .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                          .texel_format = VK_FORMAT_R32G32_UINT});
 }

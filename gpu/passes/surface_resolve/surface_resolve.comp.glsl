@@ -118,15 +118,15 @@ vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 at)
 void main()
 {
     read_constants();
-    // The list of a material ends where listing left its counter; it begins where the one before ends.
-    const int number = int(params.material);
+    // A list ends where listing left its counter; it begins where the one before ends.
+    const int number = int(params.list);
     const uint begin = number > 0 ? texelFetch(ends, number - 1).r : 0u;
     const uint at_list = begin + gl_GlobalInvocationID.x;
     if (at_list >= texelFetch(ends, number).r) return;
     const uint packed = texelFetch(pixels, int(at_list)).r;
     const ivec2 pixel = ivec2(packed & 65535u, packed >> 16);
     const uvec2 id = texelFetch(ids, pixel.y * int(params.width) + pixel.x).rg;
-    const int draw = int(id.x) - 1;
+    const int draw = int(id.x & ID_DRAW) - 1;
     const uvec4 facts = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 6);
     const uvec4 more = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 7);
     const bool mirrored = IN_WORLD == 0u && more.x != 0u;

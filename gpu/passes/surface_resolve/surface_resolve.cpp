@@ -27,8 +27,11 @@ std::vector<glm::uvec4> draw_table(const GpuScene& scene)
         const shared::DrawConstants c = draw_constants(draw);
         for (const glm::vec4& row : c.to_world) table.push_back(bits_of(row));
         for (const glm::vec4& row : c.normal_to_world) table.push_back(bits_of(row));
+        const std::uint8_t steep = scene.steep().whole[static_cast<std::size_t>(&draw - scene.draws().data())];
+        const std::uint32_t marks = ((steep & SteepTriangles::kDry) != 0 ? DRAW_DRY : 0u) |
+                                    ((steep & SteepTriangles::kUpright) != 0 ? DRAW_UPRIGHT : 0u);
         table.emplace_back(draw.first_index, static_cast<std::uint32_t>(draw.vertex_offset),
-                           draw.material, draw.instance_id);
+                           draw.material | marks, draw.instance_id);
         table.emplace_back(draw.mirrored ? 1u : 0u, draw.look, draw.shape >= 0 ? 1u : 0u, 0u);
     }
     if (table.empty()) table.emplace_back(0u);
@@ -87,11 +90,11 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
          .texel_format = VK_FORMAT_R32G32B32A32_UINT});
     upload_buffer(device, *tables.draws, std::as_bytes(std::span(draws)));
     tables.poses = scene.poses();
-    const VkDeviceSize materials = std::max<VkDeviceSize>(scene.materials().size(), 1);
+    const VkDeviceSize lists = 2 * std::max<VkDeviceSize>(scene.materials().size(), 1);
     const VkBufferUsageFlags table =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     tables.counts = arena.buffer({.name = "tile_counts",
-                                  .size = materials * 4,
+                                  .size = lists * 4,
                                   .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                   .texel_format = VK_FORMAT_R32_UINT});
     tables.pixels = arena.buffer({.name = "pixel_lists",
@@ -104,7 +107,7 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
                                  .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
     tables.groups = arena.buffer(
         {.name = "tile_groups",
-         .size = materials * sizeof(VkDispatchIndirectCommand),
+         .size = lists * sizeof(VkDispatchIndirectCommand),
          .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     return tables;
 }
@@ -117,11 +120,19 @@ void update_draws(const Device& device, ResolveTables& tables, const GpuScene& s
     upload_buffer(device, *tables.draws, std::as_bytes(std::span(draws)));
 }
 
+std::uint8_t listed_steep(const VisibleWeather& weather)
+{
+    if (!weather.water) return 0;
+    return weather.place ? SteepTriangles::kUpright : SteepTriangles::kDry;
+}
+
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
                          const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps, GpuPlace& place,
                          const ConstantsRange& constants, const VisibleWeather& weather, bool asked)
 {
     const auto materials = static_cast<std::uint32_t>(scene.materials().size());
+    const std::uint8_t kind = listed_steep(weather);
+    const std::uint32_t steep = kind == 0 ? 0u : kind == SteepTriangles::kDry ? DRAW_DRY : DRAW_UPRIGHT;
     GpuBuffer& counts = *tables.counts;
     // Read twice to list the pixels and once to shade them: as texels of a buffer in half the time.
     GpuBuffer& id_rows = *tables.id_rows;
@@ -145,7 +156,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                          {TILE_MATERIALS_PIXELS, storage_buffer(*tables.pixels)},
                          {TILE_MATERIALS_ASKED, storage_buffer(*tables.asked)}},
             .push =
-                PushBlock(shared::TileMaterialsParams{{targets.width, targets.height}, materials}),
+                PushBlock(shared::TileMaterialsParams{{targets.width, targets.height}, steep}),
             .groups = groups_over(across, down, TILE_MATERIALS_GROUP)});
     };
     bin(0);
@@ -154,7 +165,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                           .constants = {},
                           .bindings = {{TILE_OFFSETS_COUNTS, storage_buffer(counts)},
                                        {TILE_OFFSETS_GROUPS, storage_buffer(*tables.groups)}},
-                          .push = PushBlock(shared::TileOffsetsParams{materials}),
+                          .push = PushBlock(shared::TileOffsetsParams{2 * materials}),
                           .groups = {}});
     bin(1);
 
@@ -189,11 +200,12 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
         return any_emission && (material.glows || material.own_surface != 0);
     };
     const std::uint32_t lanes = targets.lanes;
-    const auto variant = [parts, lanes, weather, tracks, shares, glows](const GpuMaterial& material) {
+    const auto variant = [parts, lanes, weather, tracks, shares, glows](const GpuMaterial& material, bool shedding) {
+        const std::uint32_t water = material.water | (shedding && material.sheds ? WATER_STEEP : 0u);
         return std::vector<Specialization>{
             {SURFACE_SPEC_HOLES, 0},
             {SURFACE_SPEC_SLOTS, material.slots},
-            {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
+            {SURFACE_SPEC_WATER, weather.water ? water : 0u},
             {SURFACE_SPEC_SNOW, weather.snow ? material.snow | tracks : 0u},
             {SURFACE_SPEC_FROST, weather.frost},
             {SURFACE_SPEC_FALLS, weather.falls},
@@ -221,18 +233,30 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                           .arguments = tables.groups.get(),
                           .pipelines = {},
                           .record = {}};
-    for (const GpuMaterial& material : scene.materials()) {
-        pass.pipelines.push_back({shader, variant(material),
-                                  {types_of(pass.bindings), types_of(material.bindings)}});
+    // Which of the lists may have pixels.
+    const auto listed = [&scene, kind](std::uint32_t material, bool shedding) {
+        return shedding ? (scene.steep().some[material] & kind) != 0 : kind == 0 || (scene.steep().all[material] & kind) == 0;
+    };
+    for (std::uint32_t m = 0; m < materials; ++m) {
+        const GpuMaterial& material = scene.materials()[m];
+        for (const bool shedding : {false, true}) {
+            if (!listed(m, shedding)) continue;
+            pass.pipelines.push_back({shader, variant(material, shedding),
+                                      {types_of(pass.bindings), types_of(material.bindings)}});
+        }
     }
     const auto width = static_cast<std::uint32_t>(targets.width);
     pass.record = [=, &scene](DispatchContext& list) {
         for (std::uint32_t m = 0; m < materials; ++m) {
             const GpuMaterial& material = scene.materials()[m];
-            list.bind(shader, variant(material), types_of(material.bindings));
-            list.bind_set1(material.bindings);
-            list.push(shared::SurfaceResolveParams{m, width});
-            list.dispatch_indirect(m);
+            for (const bool shedding : {false, true}) {
+                if (!listed(m, shedding)) continue;
+                const std::uint32_t number = 2 * m + (shedding ? 1 : 0);
+                list.bind(shader, variant(material, shedding), types_of(material.bindings));
+                list.bind_set1(material.bindings);
+                list.push(shared::SurfaceResolveParams{m, number, width});
+                list.dispatch_indirect(number);
+            }
         }
     };
     graph.add(std::move(pass));

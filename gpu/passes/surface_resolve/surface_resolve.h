@@ -20,10 +20,10 @@ struct ResolveTables {
     std::unique_ptr<GpuImage> ids;      ///< draw (from 1) and triangle of each pixel
     std::unique_ptr<GpuBuffer> id_rows;  ///< the same as texels, row by row
     std::unique_ptr<GpuBuffer> draws;   ///< transforms and index ranges
-    std::unique_ptr<GpuBuffer> counts;  ///< a word a material
-    std::unique_ptr<GpuBuffer> pixels;  ///< material after material
+    std::unique_ptr<GpuBuffer> counts;  ///< two words a material
+    std::unique_ptr<GpuBuffer> pixels;  ///< list after list
     std::unique_ptr<GpuBuffer> asked;   ///< passes/adaptive: two words a tile, a bit a pixel
-    std::unique_ptr<GpuBuffer> groups;  ///< arguments of a dispatch a material
+    std::unique_ptr<GpuBuffer> groups;  ///< arguments of a dispatch a list
     std::unique_ptr<GpuImage> shares;   ///< gpu/frame/layer_shares.glsl
     std::uint64_t poses = 0;            ///< GpuScene::poses() that `draws` is of
 };
@@ -35,8 +35,11 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
 /// Brings the transforms up to the scene's pose.
 void update_draws(const Device& device, ResolveTables& tables, const GpuScene& scene);
 
+/// What of SteepTriangles the lists of a frame keep apart.
+std::uint8_t listed_steep(const VisibleWeather& weather);
+
 // Fills the G-buffer from a visibility buffer (passes/visibility): every pixel is evaluated once,
-// from a list for each material, by the same text as the surface pass.
+// from a list for each material, by the same text as the surface pass; what is steep has lists of its own where water stands.
 //
 // Of samples that go by the list (passes/adaptive), those of `asked` alone.
 //

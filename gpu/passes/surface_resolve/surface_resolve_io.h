@@ -1,6 +1,6 @@
 // Interface of the passes that turn a visibility buffer into a G-buffer.
 //
-//   tile_materials   how many pixels of a tile show each material: counted, then listed
+//   tile_materials   how many pixels of a tile show each material: counted, then listed; what is steep in lists of its own
 //   tile_offsets     where each material's list of pixels begins, and how many groups shade it
 //   surface_resolve  one dispatch a material over its pixels
 #ifndef PETRICHOR_GPU_PASSES_SURFACE_RESOLVE_SURFACE_RESOLVE_IO_H
@@ -8,27 +8,28 @@
 
 #include "base/interop.h"
 #include "gpu/passes/surface/surface_io.h"
+#include "gpu/upload/steep_io.h"
 
 #define RESOLVE_TILE 8  // pixels a side, of the tiles that are listed
 #define RESOLVE_GROUP 64  // pixels that a workgroup shades
 #define RESOLVE_TILE_MATERIALS 64
 
 // Texels (RGBA32UI) of one draw in the table of draws: the rows of its two transforms, then
-// first index, vertex offset, material, instance; then 1 when mirrored, the instance's look, 1 of a marched shape.
+// first index, vertex offset, material and what it is of DRAW_.., instance; then 1 when mirrored, the instance's look, 1 of a marched shape.
 #define RESOLVE_DRAW_TEXELS 8
 
 #define TILE_MATERIALS_GROUP 8
 #define TILE_MATERIALS_IDS 0
 #define TILE_MATERIALS_DRAWS 1
-#define TILE_MATERIALS_COUNTS 2  // a word a material: pixels that show it, later where its list ends
-#define TILE_MATERIALS_PIXELS 3  // x + 65536 y, material after material
+#define TILE_MATERIALS_COUNTS 2  // two words a material, the second of what is steep: pixels that show it, later where their list ends
+#define TILE_MATERIALS_PIXELS 3  // x + 65536 y, list after list
 #define TILE_MATERIALS_ASKED 4   // passes/adaptive: the pixels of a tile that are shaded, by bits
 #define TILE_MATERIALS_SPEC_LIST 0   // 0: count, 1: list
 #define TILE_MATERIALS_SPEC_ASKED 1  // 0: all pixels
 
 #define TILE_OFFSETS_GROUP 1
 #define TILE_OFFSETS_COUNTS 0
-#define TILE_OFFSETS_GROUPS 1  // VkDispatchIndirectCommand a material
+#define TILE_OFFSETS_GROUPS 1  // VkDispatchIndirectCommand a list
 
 // Behind the bindings of set 0 that every evaluation of a surface reads:
 #define RESOLVE_IDS SURFACE_BINDINGS
@@ -51,15 +52,16 @@ SHARED_BEGIN
 
 struct TileMaterialsParams {
     ivec2 size;      // pixels
-    uint materials;  // of the scene
+    uint steep;  // DRAW_.. of what has a list of its own; 0: nothing
 };
 
 struct TileOffsetsParams {
-    uint materials;
+    uint lists;
 };
 
 struct SurfaceResolveParams {
     uint material;
+    uint list;
     uint width;  // pixels of a row
 };
 

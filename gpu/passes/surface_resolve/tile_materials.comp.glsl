@@ -26,9 +26,9 @@ void main()
     const uvec2 bits = ASKED != 0u ? asked[tile.y * count.x + tile.x] : uvec2(~0u);
     uint found[RESOLVE_TILE_MATERIALS];
     uint number[RESOLVE_TILE_MATERIALS];
-    uint slots[RESOLVE_TILE * RESOLVE_TILE];  // of each pixel: its material's place in the two above
+    uint slots[RESOLVE_TILE * RESOLVE_TILE];  // of each pixel: its list's place in the two above
     uint different = 0u;
-    uint last_draw = 0u;
+    uint last_id = 0u;
     uint last_slot = 0u;
     if ((bits.x | bits.y) == 0u) return;
     for (int y = low.y; y < high.y; ++y) {
@@ -36,17 +36,18 @@ void main()
             const uint at = uint((y - low.y) * RESOLVE_TILE + x - low.x);
             const uint word = at < 32u ? bits.x : bits.y;
             const bool wanted = ((word >> (at & 31u)) & 1u) != 0u;
-            const uint draw = wanted ? texelFetch(ids, y * params.size.x + x).r : 0u;
+            const uint id = wanted ? texelFetch(ids, y * params.size.x + x).r : 0u;
             if (LIST != 0u) slots[at] = ~0u;
-            if (draw == 0u) continue;
-            if (draw != last_draw) {
-                last_draw = draw;
-                const uint material =
-                    texelFetch(draws, int(draw - 1u) * RESOLVE_DRAW_TEXELS + 6).z;
+            if (id == 0u) continue;
+            if (id != last_id) {
+                last_id = id;
+                const uint facts = texelFetch(draws, int((id & ID_DRAW) - 1u) * RESOLVE_DRAW_TEXELS + 6).z;
+                const bool steep = params.steep != 0u && ((id & ID_STEEP) | (facts & params.steep)) != 0u;
+                const uint list = 2u * (facts & DRAW_MATERIAL) + (steep ? 1u : 0u);
                 last_slot = 0u;
-                while (last_slot < different && found[last_slot] != material) ++last_slot;
+                while (last_slot < different && found[last_slot] != list) ++last_slot;
                 if (last_slot == different) {
-                    found[different] = material;
+                    found[different] = list;
                     number[different++] = 0u;
                 }
             }

@@ -1,5 +1,5 @@
 #version 460
-// Where each material's pixels begin: the counts become the beginnings, which listing moves to the ends.
+// Where the pixels of each list begin: the counts become the beginnings, which listing moves to the ends.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/passes/surface_resolve/surface_resolve_io.h"
@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push { TileOffsetsParams params; };
 void main()
 {
     uint begin = 0u;
-    for (uint i = 0u; i < params.materials; ++i) {
+    for (uint i = 0u; i < params.lists; ++i) {
         const uint pixels = counts[i];
         counts[i] = begin;
         begin += pixels;

@@ -11,5 +11,5 @@ layout(location = 0) out uvec2 out_id;
 
 void main()
 {
-    out_id = uvec2(in_draw + 1u, triangle_number());
+    out_id = id_of(in_draw);
 }

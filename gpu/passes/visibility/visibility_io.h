@@ -8,7 +8,7 @@
 // Set 0: the frame. Set 1 (draws with holes): the material, as gpu/upload/material_io.h has it.
 #define VISIBILITY_FRAME 0
 #define VISIBILITY_DRAWS 1
-#define VISIBILITY_NUMBERS 2  // of triangles that were sorted out (gpu/upload/seen_triangles.h)
+#define VISIBILITY_NUMBERS 2  // of triangles that were sorted out (gpu/upload/seen_triangles.h), with ID_STEEP of those that are
 
 // 1: many instances, numbers of the table of draws; 0: one, as it is pushed
 #define VISIBILITY_SPEC_INSTANCED 40

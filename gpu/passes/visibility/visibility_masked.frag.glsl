@@ -35,5 +35,5 @@ void main()
     }
     if (FADE != 0u && faded(draw.fade, at.pixel)) discard;
     if (hole_in(at, alpha_at(at))) discard;
-    out_id = uvec2(in_draw + 1u, triangle_number());
+    out_id = id_of(in_draw);
 }
