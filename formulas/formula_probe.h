@@ -30,6 +30,7 @@
 #include "formulas/light/reflection_probe.h"
 #include "formulas/light/seen_lobe.h"
 #include "formulas/light/second_lobe.h"
+#include "formulas/light/two_lobes.h"
 #include "formulas/light/shadow_plane.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
@@ -54,7 +55,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 63;
+SHARED_CONST int kProbeKinds = 64;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -570,6 +571,15 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 shine = shine_of_both(splat3(b.z), vec3(c.x, c.y, c.z), lobe);
         return vec4(mean.x + 2.0f * mean.y + 3.0f * mean.z, lobe.normal.x + 2.0f * lobe.normal.z, lobe.roughness + lobe.share,
                     shine.x + shine.y + shine.z);
+    }
+    if (kind == 63) {
+        const vec3 v = probe_direction(a.x, a.y);
+        const vec3 l = probe_direction(a.z, a.w);
+        const vec3 n = normalize(v + l + splat3(0.3f));
+        const Lobe first = make_lobe(n, v, vec3(b.x, b.y, b.z), splat3(0.04f + 0.9f * c.x), 0.05f + 0.9f * c.y);
+        const Lobe second = make_lobe(normalize(n + 0.3f * v), v, splat3(0.0f), first.f0, 0.05f + 0.9f * c.z);
+        const vec3 lit = shade_two_lobes(first, second, c.w, normalize(n + 0.1f * l), l);
+        return vec4(lit.x, lit.y, lit.z, joined_roughness(a.x, a.y, c.w));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

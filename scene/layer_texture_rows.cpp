@@ -56,6 +56,10 @@ void add_layer_textures(std::vector<MaterialTexture>& t)
     t.push_back(texture<&M::maps, &Maps::skin_curvature>(
         "skin_curvature_texture", {kWeather, "", "skinCurvatureTexture"},
         "times skin_curvature; skin_curvature_channel"));
+    t.push_back(texture<&M::maps, &Maps::second_lobe>(
+        "second_lobe_texture", {kTwoLobes, "", "secondLobeTexture"},
+        "red and green normal, blue roughness, alpha share of what shines: a second lobe of each texel, written by "
+        "texture build --lobes 2"));
 }
 
 namespace {
@@ -95,7 +99,8 @@ void add_layer_limits(const Scene& scene, std::vector<std::string>& lines)
         const bool lets_through = material.alpha_mode == AlphaMode::Blend || material.transmission > 0;
         const TextureUse* of_solids[] = {&m.clearcoat,       &m.clearcoat_roughness, &m.clearcoat_normal,
                                          &m.sheen_color,     &m.sheen_roughness,
-                                         &m.diffuse_transmission, &m.translucency, &m.skin_curvature};
+                                         &m.diffuse_transmission, &m.translucency, &m.skin_curvature,
+                                         &m.second_lobe};
         if (lets_through && std::any_of(std::begin(of_solids), std::end(of_solids),
                                         [](const TextureUse* use) { return use->present(); })) {
             lines.push_back("material " + material.name +

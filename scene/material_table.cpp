@@ -445,9 +445,23 @@ GltfPlace diffuse_texture_place()
     return {kSpecularGlossiness, "", "diffuseTexture"};
 }
 
+GltfPlace first_lobe_normal_place()
+{
+    return {kTwoLobes, "", "normalTexture"};
+}
+
+GltfPlace first_lobe_roughness_place()
+{
+    return {kTwoLobes, "", "metallicRoughnessTexture"};
+}
+
 std::vector<std::string_view> extension_members(std::string_view extension)
 {
     std::vector<std::string_view> members;
+    if (extension == kTwoLobes) {
+        members.push_back(first_lobe_normal_place().member);
+        members.push_back(first_lobe_roughness_place().member);
+    }
     if (extension == kSpecularGlossiness) {
         members.push_back(diffuse_color_place().member);
         members.push_back(diffuse_texture_place().member);

@@ -88,6 +88,11 @@ GltfPlace surface_place();
 GltfPlace diffuse_color_place();
 GltfPlace diffuse_texture_place();
 
+/// Where glTF keeps the normals and the roughness of the first of two lobes; a reader that does not know them
+/// shows the material's own, which are those of one.
+GltfPlace first_lobe_normal_place();
+GltfPlace first_lobe_roughness_place();
+
 /// Members of an extension that the tables know; empty: a foreign extension.
 std::vector<std::string_view> extension_members(std::string_view extension);
 

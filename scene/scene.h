@@ -197,6 +197,9 @@ struct LayerTextures {
     TextureUse specular_glossiness;    ///< sRGB reflectance, A smoothness
     TextureUse translucency;
     TextureUse skin_curvature;
+    /// A second lobe of each texel, beside normal_texture and metallic_roughness_texture, which then hold
+    /// the first: RG normal, B roughness, A share of what shines (formulas/light/second_lobe.h).
+    TextureUse second_lobe;
 };
 
 /// The height map as geometry: the mesh is cut when it is loaded, and its points are moved along their

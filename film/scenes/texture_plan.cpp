@@ -197,6 +197,7 @@ void plan_layers(scene::LayerTextures& maps, Planner& planner)
         planner.use(*color, {.kind = Kind::Color});
     planner.use(maps.clearcoat_normal, {.kind = Kind::Normal});
     planner.use(maps.anisotropy, {.kind = Kind::Surface});
+    planner.use(maps.second_lobe, {.kind = Kind::Weights});
 }
 
 }  // namespace

@@ -91,16 +91,13 @@ SHARED_FN float coat_fresnel(float cosine)
     return 0.04f + 0.96f * m2 * m2 * m;
 }
 
-// Reflected radiance per unit irradiance on a facing plane, times the cosine, of a base with layers; light
-// from behind comes through. Of a lobe whose diffuse part lacks what is transmitted.
-//   albedo      of the diffuse part before it is shared between the sides
-//   roughness   of the base, perceptual
-SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, vec3 albedo, float roughness, Layers layers)
+// A base with layers over it, from the answer of the base alone: that of shade_lobe(), or of two lobes
+// (two_lobes.h). Arguments as of shade_layered_lobe().
+SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, float roughness, Layers layers)
 {
     const vec3 n = lobe.normal;
     const vec3 v = lobe.view;
     const float facing = dot(n, l);
-    vec3 base = shade_lobe(lobe, l);
     if (layers.anisotropy > 0.0f) {
         const float alpha = roughness * roughness;
         const float along = mix(alpha, 1.0f, layers.anisotropy * layers.anisotropy);
@@ -130,6 +127,15 @@ SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, vec3 albedo, float roughnes
         base = base * below + splat3(mirrored);
     }
     return base + albedo * (layers.transmitted / kPi * max(-facing, 0.0f));
+}
+
+// Reflected radiance per unit irradiance on a facing plane, times the cosine, of a base with layers; light
+// from behind comes through. Of a lobe whose diffuse part lacks what is transmitted.
+//   albedo      of the diffuse part before it is shared between the sides
+//   roughness   of the base, perceptual
+SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, vec3 albedo, float roughness, Layers layers)
+{
+    return shade_layers_over(shade_lobe(lobe, l), lobe, l, albedo, roughness, layers);
 }
 
 // The same for one light alone.

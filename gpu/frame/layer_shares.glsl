@@ -15,28 +15,34 @@ struct LayerShares {
     float translucency;
     float curvature;
     vec3 other_normal;  // of the coat, or of skin's diffuse light
+    vec3 second_normal;  // of a second lobe; of materials that have its texture
+    float second_roughness;
+    float second_share;  // of what is mirrored
 };
 
 LayerShares all_shares(vec3 normal)
 {
-    return LayerShares(1.0, 1.0, 1.0, 1.0, vec3(1.0), 1.0, 1.0, 1.0, normal);
+    return LayerShares(1.0, 1.0, 1.0, 1.0, vec3(1.0), 1.0, 1.0, 1.0, normal, normal, 1.0, 0.0);
 }
 
-uvec4 pack_shares(LayerShares s)
+// two_lobes: the material has a second lobe, whose normal takes the place of the textures of sheen.
+uvec4 pack_shares(LayerShares s, bool two_lobes)
 {
     return uvec4(packUnorm4x8(vec4(s.coat, s.coat_roughness, s.anisotropy, s.transmitted)),
-                 packUnorm4x8(vec4(sqrt(s.sheen), s.sheen_roughness)),
-                 packUnorm4x8(vec4(s.translucency, s.curvature, 0.0, 0.0)),
+                 two_lobes ? packSnorm2x16(octahedral_encode(s.second_normal))
+                           : packUnorm4x8(vec4(sqrt(s.sheen), s.sheen_roughness)),
+                 packUnorm4x8(vec4(s.translucency, s.curvature, s.second_roughness, s.second_share)),
                  packSnorm2x16(octahedral_encode(s.other_normal)));
 }
 
-LayerShares unpack_shares(uvec4 code)
+LayerShares unpack_shares(uvec4 code, bool two_lobes)
 {
     const vec4 a = unpackUnorm4x8(code.x);
-    const vec4 b = unpackUnorm4x8(code.y);
+    const vec4 b = two_lobes ? vec4(1.0) : unpackUnorm4x8(code.y);
     const vec4 c = unpackUnorm4x8(code.z);
     return LayerShares(a.x, a.y, a.z, a.w, b.rgb * b.rgb, b.w, c.x, c.y,
-                       octahedral_decode(unpackSnorm2x16(code.w)));
+                       octahedral_decode(unpackSnorm2x16(code.w)), octahedral_decode(unpackSnorm2x16(code.y)), c.z,
+                       two_lobes ? c.w : 0.0);
 }
 
 #endif

@@ -215,6 +215,7 @@ private:
     std::optional<std::uint64_t> rows_poses_;  // that they are of
     bool has_runs_ = false;                    // some draws are alike
     std::uint32_t layers_used_ = 0;
+    std::uint32_t second_lobe_row_ = 0;  // of materials that have a second lobe alone; 0: none yet
     std::vector<std::unique_ptr<GpuImage>> images_;
     std::unique_ptr<GpuImage> white_;
     std::vector<const SamplerHandle*> image_samplers_;

@@ -64,7 +64,8 @@ std::uint32_t layers_of(const Material& m)
            (m.anisotropy > 0.0f ? LAYERS_ANISOTROPY : 0u) |
            (m.diffuse_transmission > 0.0f ? LAYERS_TRANSMISSION : 0u) |
            (m.translucency > 0.0f && m.translucency_scale > 0.0f ? LAYERS_TRANSLUCENT : 0u) |
-           (scatters(m) ? LAYERS_SCATTER : 0u);
+           (scatters(m) ? LAYERS_SCATTER : 0u) |
+           (m.maps.second_lobe.present() ? LAYERS_SECOND_LOBE : 0u);
 }
 
 // Occlusion, roughness and metal in channels of one texture, at one place of it: read once.
@@ -97,7 +98,8 @@ std::uint32_t layers_of(const Material& m, const std::string& model)
     const auto& built_in = built_in_lighting_models();
     const bool own = std::find(built_in.begin(), built_in.end(), model) == built_in.end();
     const std::uint32_t all = layers_of(m);
-    if (model == "layered" || own) return all;
+    if (own) return all & ~LAYERS_SECOND_LOBE;
+    if (model == "layered") return all;
     if (model == "unlit" || model == "unlit_shadowed") return 0;
     return (all & (LAYERS_TRANSLUCENT | LAYERS_SCATTER)) | (model == "skin" ? LAYERS_SKIN : 0u) |
            (model == "hair" ? LAYERS_HAIR : 0u);
@@ -170,6 +172,10 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
             }
         }
         material.layer_roles = layers.roles;
+        // Without its texture there is none.
+        if ((layers.roles[LAYER_TEXTURE_SECOND_LOBE / LAYER_ROLES_A_WORD] >>
+             4 * (LAYER_TEXTURE_SECOND_LOBE % LAYER_ROLES_A_WORD) & 15u) == 0)
+            sources_[i].maps.second_lobe = current_[i].maps.second_lobe = {};
         material.light_textures = layers.of_light;
         body_shares_ = body_shares_ || source.maps.thickness.present();
         if ((material.slots & 1u << TEXTURE_HEIGHT) != 0u)
@@ -177,7 +183,7 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         if (material.parallax != PARALLAX_NONE && source.weather.parallax_level >= 0.0f)
             material.parallax |= PARALLAX_LEVEL;
         materials_.push_back(std::move(material));
-        set_material(i, source);
+        set_material(i, sources_[i]);
     }
 }
 
@@ -234,6 +240,10 @@ void GpuScene::set_material(std::size_t index, const Material& source)
 // Layers have a row a material; the G-buffer numbers the rows behind the models.
 std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
 {
+    // Of those that have a second lobe and nothing else one row tells all.
+    const bool plain = material.layers == LAYERS_SECOND_LOBE;
+    if (plain && second_lobe_row_ != 0) material.layers_row = second_lobe_row_;
+    if (!plain && material.layers_row == second_lobe_row_) material.layers_row = 0;
     if (material.layers_row == 0) {
         if (lighting_models_.count() + layers_used_ > 255) {
             throw Error("scene: " + std::to_string(layers_used_ + 1) +
@@ -243,6 +253,7 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
                         "Merge materials that are alike.");
         }
         material.layers_row = ++layers_used_;
+        if (plain) second_lobe_row_ = material.layers_row;
     }
     const std::size_t row = material.layers_row - 1;
     const glm::vec4 texels[LAYERS_TEXELS] = {
@@ -254,7 +265,7 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
         glm::vec4(m.translucency_color, m.translucency_shadow),
         glm::vec4(m.scatter_color, m.skin_curvature),
         {m.skin_curvature_scale, m.second.scatter_bias, m.second.scatter_power, mixes(m) ? 1.0f : 0.0f},
-        glm::vec4(m.second.scatter_color, 0.0f)};
+        glm::vec4(m.second.scatter_color, (material.layers & LAYERS_SECOND_LOBE) != 0u ? 1.0f : 0.0f)};
     std::memcpy(layers_->mapped + row * sizeof(texels), texels, sizeof(texels));
     return lighting_models_.count() + static_cast<std::uint32_t>(row);
 }

@@ -150,7 +150,8 @@
     X(18, third_metallic_roughness_texture) \
     X(19, fourth_base_color_texture)     \
     X(20, fourth_normal_texture)         \
-    X(21, fourth_metallic_roughness_texture)
+    X(21, fourth_metallic_roughness_texture) \
+    X(22, second_lobe_texture)
 #define LAYER_TEXTURE_CLEARCOAT 0
 #define LAYER_TEXTURE_CLEARCOAT_ROUGHNESS 1
 #define LAYER_TEXTURE_CLEARCOAT_NORMAL 2
@@ -169,12 +170,13 @@
 #define LAYER_TEXTURE_SPECULAR_GLOSSINESS 15
 #define LAYER_TEXTURE_THIRD 16   // three in a row: colour, normal, packed
 #define LAYER_TEXTURE_FOURTH 19
-#define LAYER_TEXTURE_ROLES 22
+#define LAYER_TEXTURE_SECOND_LOBE 22
+#define LAYER_TEXTURE_ROLES 23
 #define LAYER_ROLES_A_WORD 8  // four bits a role: 0 none, else the number of the slot from 1
 #define LAYER_ROLE_WORDS 3
 #define LAYER_TEXTURE_SLOTS 6
 #define MATERIAL_TEXTURE_SLOTS (TEXTURE_SLOTS + LAYER_TEXTURE_SLOTS)
-// Roles up to here are shares that lighting reads a pixel.
+// Roles up to here, and that of the second lobe, are shares that lighting reads a pixel.
 #define LAYER_TEXTURES_OF_LIGHT 9
 
 // What else a material's surface does, SURFACE_SPEC_BESIDES.
@@ -239,7 +241,7 @@
 //   4  translucency_color, translucency_shadow
 //   5  scatter_color, skin_curvature
 //   6  skin_curvature_scale, second_scatter_bias, second_scatter_power, 1: two sets are mixed
-//   7  second_scatter_color, -
+//   7  second_scatter_color, 1: it has a second lobe
 #define LAYERS_TEXELS 8
 
 // Which of them a material has.
@@ -251,6 +253,7 @@
 #define LAYERS_SCATTER 32u
 #define LAYERS_SKIN 64u
 #define LAYERS_HAIR 128u
+#define LAYERS_SECOND_LOBE 256u
 #define LAYERS_LATER (LAYERS_TRANSLUCENT | LAYERS_SCATTER | LAYERS_SKIN | LAYERS_HAIR)
 
 

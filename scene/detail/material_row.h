@@ -23,6 +23,7 @@ inline constexpr float kLargest = std::numeric_limits<float>::max();
 inline constexpr std::string_view kWeather = "PETRICHOR_materials_weather";
 inline constexpr std::string_view kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 inline constexpr std::string_view kIridescence = "KHR_materials_iridescence";
+inline constexpr std::string_view kTwoLobes = "PETRICHOR_materials_two_lobes";
 inline constexpr std::string_view kPbr = "pbrMetallicRoughness";
 
 // The member at the end of a chain of pointers to members.

@@ -167,14 +167,46 @@ void read_specular_workflow(const JsonObject& material, TextureCollector& textur
     out.base_color_texture = textures.use(*holder, diffuse_texture_place().member);
 }
 
+// The lighting knows two lobes of what is opaque and lit by the usual model; all else has the one of the
+// material's own textures.
+bool may_have_two_lobes(const JsonObject& material)
+{
+    const auto shader = holder_of(material, lighting_model_place());
+    const std::string model = shader ? shader->text(lighting_model_place().member) : "";
+    return (model.empty() || model == "layered") && material.text("alphaMode", "OPAQUE") != "BLEND" &&
+           !material.extension("KHR_materials_transmission") && !material.extension("KHR_materials_unlit");
+}
+
+// Where a texture of a material stands. Two lobes take the place of one: their normals, their roughness, and
+// the occlusion that is in the same image.
+GltfPlace place_of(const MaterialTexture& texture, const JsonObject& material, const JsonObject* lobes)
+{
+    if (!lobes) return texture.gltf;
+    const GltfPlace normal = first_lobe_normal_place(), roughness = first_lobe_roughness_place();
+    if (texture.name == "normal_texture" && lobes->has(normal.member)) return normal;
+    if (!lobes->has(roughness.member)) return texture.gltf;
+    if (texture.name == "metallic_roughness_texture") return roughness;
+    if (texture.name != "occlusion_texture") return texture.gltf;
+    const auto one = material.object("pbrMetallicRoughness");
+    const auto surface = one ? one->object("metallicRoughnessTexture") : std::nullopt;
+    const auto occlusion = material.object("occlusionTexture");
+    const bool same = surface && occlusion && surface->whole("index", 0) == occlusion->whole("index", 1) &&
+                      surface->whole("texCoord", 0) == occlusion->whole("texCoord", 0);
+    return same ? roughness : texture.gltf;
+}
+
 Material read_material(const JsonObject& json, std::size_t number, TextureCollector& textures)
 {
     Material out;
     out.name = json.text("name", "material " + std::to_string(number));
     check_extensions(json);
+    const auto lobes = json.extension(first_lobe_normal_place().extension);
+    const bool two = lobes && may_have_two_lobes(json);
     for (const MaterialTexture& texture : material_textures()) {
-        const auto holder = holder_of(json, texture.gltf);
-        if (holder) texture.edit(out) = textures.use(*holder, texture.gltf.member);
+        const GltfPlace place = place_of(texture, json, two ? &*lobes : nullptr);
+        if (lobes && !two && place.extension == first_lobe_normal_place().extension) continue;
+        const auto holder = holder_of(json, place);
+        if (holder) texture.edit(out) = textures.use(*holder, place.member);
     }
     for (const MaterialProperty& property : material_table()) read_property(property, json, out);
     read_specular_workflow(json, textures, out);

@@ -300,6 +300,46 @@ TEST(Gltf, TakesPreparedTexturesFirst)
     EXPECT_THAT(loaded().warnings, testing::IsEmpty());
 }
 
+// Two lobes of a texel take the place of the material's one, where the lighting knows them.
+TEST(Gltf, TwoLobesTakeThePlaceOfOne)
+{
+    json document = scene_json();
+    document["textures"] = json::array();
+    document["images"] = json::array();
+    for (const char* name : {"n", "s", "n1", "s1", "second"}) {
+        document["textures"].push_back({{"source", document["images"].size()}});
+        document["images"].push_back({{"uri", std::string(name) + ".png"}});
+    }
+    document["materials"] = json::array({json::parse(R"({
+        "normalTexture": {"index": 0, "scale": 0.5}, "occlusionTexture": {"index": 1},
+        "pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 1}},
+        "extensions": {"PETRICHOR_materials_two_lobes": {"normalTexture": {"index": 2, "scale": 0.5},
+            "metallicRoughnessTexture": {"index": 3}, "secondLobeTexture": {"index": 4}}}})")});
+    for (auto& mesh : document["meshes"])
+        for (auto& primitive : mesh["primitives"]) primitive["material"] = 0;
+    const auto reader = [](const std::string& uri) { return to_bytes("bytes of " + uri); };
+    const auto name = [](const Scene& scene, const TextureUse& use) {
+        return use.present() ? scene.textures[static_cast<std::size_t>(use.texture)].name : "";
+    };
+    const auto loaded = [&] { return load_gltf(glb(document.dump()), "yard.glb", reader); };
+    const Scene scene = loaded();
+    const Material& m = scene.materials[0];
+    EXPECT_EQ(name(scene, m.normal_texture), "n1.png");
+    EXPECT_EQ(name(scene, m.metallic_roughness_texture), "s1.png");
+    EXPECT_EQ(name(scene, m.occlusion_texture), "s1.png") << "one image, one read";
+    EXPECT_EQ(name(scene, m.maps.second_lobe), "second.png");
+    EXPECT_EQ(m.normal_scale, 0.5f);
+    EXPECT_EQ(scene.textures.size(), 3u) << "those of one lobe are not read";
+    document["materials"][0]["occlusionTexture"]["index"] = 0;
+    EXPECT_EQ(name(loaded(), loaded().materials[0].occlusion_texture), "n.png");
+
+    document["materials"][0]["alphaMode"] = "BLEND";
+    const Scene glass = loaded();
+    EXPECT_EQ(name(glass, glass.materials[0].normal_texture), "n.png");
+    EXPECT_EQ(name(glass, glass.materials[0].metallic_roughness_texture), "s.png");
+    EXPECT_FALSE(glass.materials[0].maps.second_lobe.present());
+}
+
 TEST(Gltf, SaysWhatItIgnores)
 {
     const Scene scene = load(edited({

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -45,22 +47,28 @@ TEST(JsonText, DamageIsAnError)
 class GltfRewrite : public TextureFiles {
 protected:
     // Waves as normals, a ramp as roughness, noise as colour.
-    static std::vector<std::byte> png(int seed, bool normal)
+    std::vector<std::byte> png(int seed, bool normal) const
     {
         std::vector<std::uint8_t> pixels;
-        for (int y = 0; y < 32; ++y) {
-            for (int x = 0; x < 32; ++x) {
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
                 const int wave = (x * (3 + seed) + y * 5) % 16 - 8;
-                if (normal) {
+                if (normal && dents) {
+                    const double at = 2.0 * 3.14159265 / side;
+                    const double slope_x = 0.1 * std::sin(at * (3 * x + 2 * y)) + 0.1 * std::sin(at * (9 * x - 7 * y) + 1);
+                    const double slope_y = 0.1 * std::sin(at * (4 * y - x) + 2) + 0.1 * std::sin(at * (8 * x + 6 * y));
+                    for (const double v : {slope_x, slope_y, std::sqrt(1 - slope_x * slope_x - slope_y * slope_y)})
+                        pixels.push_back(static_cast<std::uint8_t>(127.5 + 127.5 * v));
+                } else if (normal) {
                     for (const int v : {128 + 9 * wave, 128 - 7 * wave, 230})
                         pixels.push_back(static_cast<std::uint8_t>(v));
                 } else {
-                    for (const int v : {200, 40 + 4 * x, seed * 20})
+                    for (const int v : {200, dents ? 50 + 120 * ((x + y) % 2) : 40 + 4 * x, seed * 20})
                         pixels.push_back(static_cast<std::uint8_t>(v));
                 }
             }
         }
-        return encode_png8(32, 32, 3, pixels);
+        return encode_png8(side, side, 3, pixels);
     }
 
     // Views: mesh bytes, image 0 (surface), mesh bytes again, images 1 and 2 (normals).
@@ -125,6 +133,8 @@ protected:
         return decode_texture(image_bytes(file, image), "image");
     }
 
+    int side = 32;
+    bool dents = false;  // and chequers of two glosses
     std::vector<std::byte> mesh = [] {
         std::vector<std::byte> bytes;
         for (int i = 0; i < 300; ++i) bytes.push_back(static_cast<std::byte>(i * 37));
@@ -297,6 +307,61 @@ TEST_F(GltfRewrite, BytesDoNotDependOnThreads)
     const auto one = to_bytes(built(in, options));
     options.images.threads = 3;
     EXPECT_EQ(one, to_bytes(built(in, options)));
+}
+
+// The textures of one lobe stay as they would be without: who does not know the extension sees no difference.
+TEST_F(GltfRewrite, TwoLobesStandBesideTheOne)
+{
+    dents = true;
+    side = 256;
+    const auto in = scene(kOne);
+    GltfBuildOptions options;
+    options.images.prefilter.rule = "picture";
+    options.images.prefilter.quick = false;
+    const GltfFile one = built(in, options);
+    options.images.prefilter.lobes = 2;
+    options.images.threads = 1;
+    const GltfFile two = built(in, options);
+    ASSERT_THAT(two.json.find("extensionsUsed")->dump(), HasSubstr(kTwoLobes)) << testing::PrintToString(report.notes);
+    EXPECT_EQ(two.json.find("extensionsRequired")->dump(), "[\"KHR_texture_basisu\"]");
+    for (std::size_t t = 0; t < 2; ++t)
+        EXPECT_EQ(image_bytes(two, basis(two, t)), image_bytes(one, basis(one, t))) << "texture " << t;
+    const JsonText& material = two.json.find("materials")->at(0);
+    EXPECT_EQ(material.find("normalTexture")->dump(), one.json.find("materials")->at(0).find("normalTexture")->dump());
+    const JsonText& lobes = *material.find("extensions")->find(kTwoLobes);
+    ASSERT_EQ(lobes.size(), 3u);
+    const auto map = [&](const char* key) { return texture(two, basis(two, index(lobes.find(key)->find("index")))); };
+    const MipTexture second = map("secondLobeTexture");
+    const MipTexture normals = map("normalTexture"), surface = map("metallicRoughnessTexture");
+    EXPECT_EQ(second.levels.size(), 9u);
+    EXPECT_EQ(second.format.block, Block::Uastc);
+    // Level 0: both are those of the maps.
+    for (const std::size_t i : {0u, 100u, 600u}) {
+        EXPECT_NEAR(channel(second, 0, 0)[i], channel(normals, 0, 0)[i], 6);
+        EXPECT_NEAR(channel(second, 0, 2)[i], channel(surface, 0, 1)[i], 6);
+        EXPECT_NEAR(channel(second, 0, 3)[i], 128, 3);
+    }
+    const auto differ = [](const std::vector<int>& a, const std::vector<int>& b) {
+        int sum = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+        return sum / static_cast<int>(a.size());
+    };
+    EXPECT_GT(differ(channel(second, 1, 2), channel(surface, 1, 1)), 5) << "two lobes, not one twice";
+}
+
+// What lets light through, and what has lighting of its own, is shaded with one.
+TEST_F(GltfRewrite, TwoLobesAreForOpaqueSurfaces)
+{
+    const auto slots = [&](const std::string& extra) {
+        const std::string material = std::string(kOne).substr(0, std::strlen(kOne) - 1) + extra + "}";
+        const ImagePlan plan = plan_images(read_gltf_file(scene(material)), true, 2);
+        return std::count_if(plan.slots.begin(), plan.slots.end(), [](const TextureSlot& s) { return !s.like.empty(); });
+    };
+    EXPECT_EQ(slots(""), 3);
+    EXPECT_EQ(slots(R"(,"alphaMode":"MASK")"), 3);
+    EXPECT_EQ(slots(R"(,"alphaMode":"BLEND")"), 0);
+    EXPECT_EQ(slots(R"(,"extensions":{"KHR_materials_transmission":{"transmissionFactor":0.5}})"), 0);
+    EXPECT_EQ(slots(R"(,"extensions":{"PETRICHOR_materials_weather":{"lightingModel":"skin"}})"), 0);
 }
 
 TEST_F(GltfRewrite, BadInputIsAnError)

@@ -116,6 +116,12 @@ struct ImageMaker::Pair {
     int skipped = 0;  // levels that the surface does not have
 };
 
+struct ImageMaker::Chains {
+    RawImage normals, roughness;
+    int bits = -1;
+    Prefiltered made;
+};
+
 std::vector<std::byte> image_bytes(const GltfFile& file, std::size_t image)
 {
     const JsonText& json = image_json(file, image);
@@ -130,7 +136,7 @@ std::vector<std::byte> image_bytes(const GltfFile& file, std::size_t image)
 }
 
 ImageMaker::ImageMaker(const GltfFile& file, const ImagePlan& plan, ImageMakingOptions options)
-    : file_(file), plan_(plan), options_(std::move(options))
+    : file_(file), plan_(plan), options_(std::move(options)), last_(new Chains[2])
 {
 }
 ImageMaker::~ImageMaker() = default;
@@ -212,15 +218,41 @@ PrefilterOptions pair_options(const ImageMakingOptions& options, const ImageReci
     PrefilterOptions to = prefilter_options(options.prefilter,
                                             {.joint = true, .bits = 8, .threads = options.threads});
     to.rebuild_z = true;
+    to.lobes = recipe.lobes;
     if (recipe.normal_scale != 1.0f) to.bits = 0;  // the codes would be those of other normals
     return to;
 }
 
 }  // namespace
 
-std::vector<Image> ImageMaker::surface_levels(const ImageRecipe& recipe, bool plain) const
+const Prefiltered& ImageMaker::chains(const ImageRecipe& recipe, const Pair& pair) const
+{
+    Chains& last = last_[recipe.lobes == 2 ? 1 : 0];
+    RawImage normals = to_raw(pair.normals, PixelType::U16), roughness = to_raw(pair.roughness, PixelType::U16);
+    const PrefilterOptions options = pair_options(options_, recipe);
+    if (last.bits == options.bits && last.normals.width == normals.width && last.normals.height == normals.height &&
+        last.normals.bytes == normals.bytes && last.roughness.bytes == roughness.bytes)
+        return last.made;
+    last.made = {};
+    last.made = prefilter_raw(normals, roughness, options);
+    last.normals = std::move(normals);
+    last.roughness = std::move(roughness);
+    last.bits = options.bits;
+    return last.made;
+}
+
+// A surface; of two lobes in the size of its normals, since all three images are fitted together.
+Image ImageMaker::surface_of(const ImageRecipe& recipe) const
 {
     Image surface = decode(recipe.image, ColorSpace::Data, 3);
+    if (recipe.lobes != 2) return surface;
+    const Image normals = decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3);
+    return resized(surface, normals.width, normals.height, options_.threads);
+}
+
+std::vector<Image> ImageMaker::surface_levels(const ImageRecipe& recipe, bool plain) const
+{
+    Image surface = surface_of(recipe);
     const float factor = recipe.roughness_factor;
     std::vector<Image> levels = plain_levels(surface, "surface", mip_options(recipe));
     const float stored = options_.bake_roughness ? 1.0f : factor;
@@ -237,12 +269,10 @@ std::vector<Image> ImageMaker::surface_levels(const ImageRecipe& recipe, bool pl
     const Pair pair =
         to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface,
                       recipe.normal_scale, factor, options_.threads);
-    const Prefiltered chains =
-        prefilter_raw(to_raw(pair.normals, PixelType::U16), to_raw(pair.roughness, PixelType::U16),
-                      pair_options(options_, recipe));
+    const Prefiltered& made = chains(recipe, pair);
     const std::size_t skipped = static_cast<std::size_t>(pair.skipped);
     for (std::size_t k = skipped ? 0 : 1; k < levels.size(); ++k)
-        put(levels[k], chains.roughness[k + skipped]);
+        put(levels[k], made.roughness[k + skipped]);
     return levels;
 }
 
@@ -260,11 +290,36 @@ std::vector<Image> ImageMaker::normal_levels(const ImageRecipe& recipe) const
                 normals.width, normals.height, options_.threads);
     const Pair pair = to_pair<Pair>(normals, surface, recipe.normal_scale, recipe.roughness_factor,
                                     options_.threads);
-    const Prefiltered chains =
-        prefilter_raw(to_raw(pair.normals, PixelType::U16), to_raw(pair.roughness, PixelType::U16),
-                      pair_options(options_, recipe));
+    const Prefiltered& made = chains(recipe, pair);
     for (std::size_t k = 1; k < levels.size(); ++k)
-        levels[k] = scaled_normals(chains.normal[k], 1.0f / recipe.normal_scale);
+        levels[k] = scaled_normals(made.normal[k], 1.0f / recipe.normal_scale);
+    return levels;
+}
+
+// plain: both lobes are the first one's normals with the roughness of plain mips.
+std::vector<Image> ImageMaker::second_levels(const ImageRecipe& recipe, bool plain) const
+{
+    const Image normals = decode(recipe.image, ColorSpace::Data, 3);
+    const Image surface = resized(decode(static_cast<std::size_t>(recipe.surface), ColorSpace::Data, 3),
+                                  normals.width, normals.height, options_.threads);
+    const Pair pair = to_pair<Pair>(normals, surface, recipe.normal_scale, recipe.roughness_factor, options_.threads);
+    const Prefiltered& made = chains(recipe, pair);
+    const std::vector<Image> plain_roughness = plain_levels(pair.roughness, "scalar", mip_options(recipe));
+    const float stored = options_.bake_roughness ? 1.0f : recipe.roughness_factor;
+    std::vector<Image> levels;
+    for (std::size_t k = 0; k < plain_roughness.size(); ++k) {
+        const bool two = k > 0 && !plain;
+        const Image& roughness = two ? made.second.roughness[k] : plain_roughness[k];
+        const Image normal =
+            k == 0 ? normals
+                   : scaled_normals(two ? made.second.normal[k] : made.normal[k], 1.0f / recipe.normal_scale);
+        Image& level = levels.emplace_back(roughness.width, roughness.height, 4, ColorSpace::Data, 0.5f);
+        for (std::size_t i = 0; i < roughness.pixels.size(); ++i) {
+            std::copy_n(&normal.pixels[3 * i], 2, &level.pixels[4 * i]);
+            level.pixels[4 * i + 2] = std::min(roughness.pixels[i] / stored, 1.0f);
+            if (two) level.pixels[4 * i + 3] = made.second.share[k].pixels[i];
+        }
+    }
     return levels;
 }
 
@@ -281,6 +336,9 @@ MipTexture ImageMaker::make(std::size_t number, bool plain) const
             break;
         case ImageMeaning::Normal:
             levels = normal_levels(recipe);
+            break;
+        case ImageMeaning::SecondLobe:
+            levels = second_levels(recipe, plain);
             break;
         case ImageMeaning::Data:
             levels = plain_levels(decode(recipe.image, ColorSpace::Data, 0), "scalar",
@@ -304,7 +362,9 @@ MipTexture ImageMaker::make(std::size_t number, bool plain) const
                               .srgb = recipe.meaning == ImageMeaning::Color,
                               .quality = options_.quality,
                               .repeat = options_.rdo.value_or(
-                                  recipe.meaning == ImageMeaning::Normal ? 0.0f : kRdo),
+                                  recipe.meaning == ImageMeaning::Normal || recipe.meaning == ImageMeaning::SecondLobe
+                                      ? 0.0f
+                                      : kRdo),
                               .repeat_most = options_.rdo_most,
                               .threads = options_.threads});
 }
@@ -319,7 +379,7 @@ std::optional<PairPictures> ImageMaker::pictures(std::size_t number) const
 {
     const ImageRecipe& recipe = plan_.recipes[number];
     if (recipe.normal < 0 || options_.prefilter.rule == "none") return {};
-    const Image surface = decode(recipe.image, ColorSpace::Data, 3);
+    const Image surface = surface_of(recipe);
     const Pair pair =
         to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface,
                       recipe.normal_scale, recipe.roughness_factor, options_.threads);
@@ -330,10 +390,36 @@ std::optional<PairPictures> ImageMaker::pictures(std::size_t number) const
         pixel_base_shares(pair.normals, options_.threads)};
 }
 
+// A second lobe as it was made; level 0 is that of the maps.
+SecondLobe ImageMaker::second_as_read(const MipTexture& made, const PairPictures& pictures,
+                                      const ImageRecipe& recipe, std::size_t count) const
+{
+    SecondLobe read;
+    for (auto* part : {&read.normal, &read.roughness, &read.share}) part->resize(count);
+    const float stored = options_.bake_roughness ? 1.0f : recipe.roughness_factor;
+    for (std::size_t k = 1; k < made.levels.size(); ++k) {
+        const Image codes = to_image(decode_level(made, static_cast<int>(k), options_.threads), ColorSpace::Data);
+        const std::size_t at = pictures.level_of(codes.width, codes.height);
+        if (at == count) continue;
+        Image normal(codes.width, codes.height, 3, ColorSpace::Data);
+        for (std::size_t i = 0; 4 * i < codes.pixels.size(); ++i) {
+            const float x = 2.0f * codes.pixels[4 * i] - 1.0f, y = 2.0f * codes.pixels[4 * i + 1] - 1.0f;
+            normal.pixels[3 * i] = codes.pixels[4 * i];
+            normal.pixels[3 * i + 1] = codes.pixels[4 * i + 1];
+            normal.pixels[3 * i + 2] = 0.5f + 0.5f * std::sqrt(std::max(1.0f - x * x - y * y, 0.0f));
+        }
+        read.normal[at] = scaled_normals(std::move(normal), recipe.normal_scale);
+        read.roughness[at] = channel_of(codes, 2);
+        for (float& value : read.roughness[at].pixels) value *= stored;
+        read.share[at] = channel_of(codes, 3);
+    }
+    return read;
+}
+
 // Levels that one of the two images does not have are left to the maps.
 Prefiltered ImageMaker::as_read(std::size_t number, const PairPictures& pictures,
                                 const MipTexture& surface_made, const MipTexture& normals_made,
-                                bool darkened) const
+                                bool darkened, const MipTexture* second_made) const
 {
     const ImageRecipe& recipe = plan_.recipes[number];
     Prefiltered read;
@@ -358,6 +444,7 @@ Prefiltered ImageMaker::as_read(std::size_t number, const PairPictures& pictures
     };
     fill(surface_made, read.roughness, false);
     fill(normals_made, read.normal, true);
+    if (second_made) read.second = second_as_read(*second_made, pictures, recipe, read.normal.size());
     if (darkened) read.base_share = pictures.base_share;
     return read;
 }

@@ -53,10 +53,11 @@ public:
     /// filtered together.
     std::optional<PairPictures> pictures(std::size_t surface) const;
     /// What a viewer reads of a surface and its normals as they were made.
-    ///   darkened  the base colour carries what the normals lose
+    ///   darkened     the base colour carries what the normals lose
+    ///   second_made  of a surface of two lobes; null: of one
     Prefiltered as_read(std::size_t surface, const PairPictures& pictures,
                         const MipTexture& surface_made, const MipTexture& normals_made,
-                        bool darkened) const;
+                        bool darkened, const MipTexture* second_made = nullptr) const;
 
     /// True when the source of a recipe was resampled.
     bool is_resampled(std::size_t recipe) const;
@@ -67,11 +68,19 @@ private:
     std::vector<Image> color_levels(const ImageRecipe& recipe) const;
     std::vector<Image> surface_levels(const ImageRecipe& recipe, bool plain) const;
     std::vector<Image> normal_levels(const ImageRecipe& recipe) const;
+    std::vector<Image> second_levels(const ImageRecipe& recipe, bool plain) const;
+    Image surface_of(const ImageRecipe& recipe) const;
+    const Prefiltered& chains(const ImageRecipe& recipe, const Pair& pair) const;
+    SecondLobe second_as_read(const MipTexture& made, const PairPictures& pictures, const ImageRecipe& recipe,
+                              std::size_t count) const;
     MipOptions mip_options(const ImageRecipe& recipe) const;
 
     const GltfFile& file_;
     const ImagePlan& plan_;
     ImageMakingOptions options_;
+    // What was filtered last, of one and of two lobes: images of one material ask for the same.
+    struct Chains;
+    mutable std::unique_ptr<Chains[]> last_;
 };
 
 /// The encoded bytes of an image of a scene.

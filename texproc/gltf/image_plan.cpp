@@ -139,9 +139,21 @@ void find_infos(const JsonText& value, Keys& keys, std::vector<Found>& to)
     }
 }
 
+// What the renderer shades with two lobes (scene/gltf/material.cpp).
+bool may_have_two_lobes(const JsonText& material)
+{
+    const JsonText* mode = material.find("alphaMode");
+    if (mode && mode->as_string() == "BLEND") return false;
+    const JsonText* extensions = material.find("extensions");
+    if (!extensions) return true;
+    const JsonText* own = extensions->find("PETRICHOR_materials_weather");
+    return !extensions->find("KHR_materials_transmission") && !extensions->find("KHR_materials_unlit") &&
+           !extensions->find(kTwoLobes) && !(own && own->find("lightingModel"));
+}
+
 class Planner {
 public:
-    Planner(const GltfFile& file, bool bake) : file_(file), bake_(bake) {}
+    Planner(const GltfFile& file, bool bake, int lobes) : file_(file), bake_(bake), lobes_(lobes) {}
 
     ImagePlan plan()
     {
@@ -152,6 +164,7 @@ public:
 
 private:
     void plan_material(std::size_t number, const JsonText& material);
+    void plan_two_lobes(std::size_t number, const Found& surface, const Found& normal);
     std::size_t add(const ImageRecipe& recipe)
     {
         const auto at = std::find(plan_.recipes.begin(), plan_.recipes.end(), recipe);
@@ -181,6 +194,7 @@ private:
 
     const GltfFile& file_;
     bool bake_;
+    int lobes_;
     ImagePlan plan_;
     std::set<std::size_t> kept_;
 };
@@ -265,6 +279,31 @@ void Planner::plan_material(std::size_t number, const JsonText& material)
         plan_.slots.push_back({number, found.keys, texture, add(recipe)});
     }
     if (paired && bake_ && roughness != 1.0f) plan_.baked_materials.push_back(number);
+    if (lobes_ != 2 || !paired) return;
+    if (may_have_two_lobes(material)) {
+        plan_two_lobes(number, *surface, *normal);
+    } else {
+        plan_.notes.push_back("material " + std::to_string(number) +
+                              " lets light through, or has lighting of its own: it has one lobe");
+    }
+}
+
+// The recipes of one lobe are there.
+void Planner::plan_two_lobes(std::size_t number, const Found& surface, const Found& normal)
+{
+    const auto beside = [&](const Found& found, const char* key, std::optional<ImageMeaning> meaning) {
+        const auto own = std::find_if(plan_.slots.begin(), plan_.slots.end(), [&](const TextureSlot& s) {
+            return s.material == number && s.keys == found.keys;
+        });
+        ImageRecipe recipe = plan_.recipes[own->recipe];
+        recipe.lobes = 2;
+        if (meaning) recipe.meaning = *meaning;
+        const TextureSlot slot{number, {"extensions", kTwoLobes, key}, own->texture, add(recipe), found.keys};
+        plan_.slots.push_back(slot);
+    };
+    beside(normal, "normalTexture", {});
+    beside(surface, "metallicRoughnessTexture", {});
+    beside(normal, "secondLobeTexture", ImageMeaning::SecondLobe);
 }
 
 }  // namespace
@@ -296,9 +335,9 @@ int source_image(const GltfFile& file, std::size_t texture)
     return static_cast<int>(*image);
 }
 
-ImagePlan plan_images(const GltfFile& file, bool bake_roughness)
+ImagePlan plan_images(const GltfFile& file, bool bake_roughness, int lobes)
 {
-    return Planner(file, bake_roughness).plan();
+    return Planner(file, bake_roughness, lobes).plan();
 }
 
 }  // namespace petrichor::texproc

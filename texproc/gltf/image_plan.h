@@ -16,7 +16,13 @@ enum class ImageMeaning {
     Normal,   ///< tangent space, green up
     Surface,  ///< occlusion, roughness, metallic
     Data,     ///< anything else that is linear
+    SecondLobe,  ///< made: normal, roughness and share of a second lobe of each texel
 };
+
+/// Where a material has the textures of two lobes of a texel: normalTexture and metallicRoughnessTexture of
+/// the first, which take the place of the material's own for who knows the extension, and
+/// secondLobeTexture. Its own stay those of one lobe.
+inline constexpr const char* kTwoLobes = "PETRICHOR_materials_two_lobes";
 
 /// One image to be made: a source image, and what of its materials its levels depend on. Uses that
 /// agree in all of this share one image; others get one each.
@@ -31,6 +37,7 @@ struct ImageRecipe {
     float normal_scale = 1.0f;
     float roughness_factor = 1.0f;
     float metallic_factor = 1.0f;
+    int lobes = 1;  ///< Surface, Normal: 2: of the first of two lobes, which are fitted together
     bool operator==(const ImageRecipe&) const = default;
 };
 
@@ -40,6 +47,7 @@ struct TextureSlot {
     std::vector<std::string> keys;  ///< from the material down: pbrMetallicRoughness, ...
     std::size_t texture = 0;        ///< of the scene, as it is
     std::size_t recipe = 0;         ///< of ImagePlan::recipes
+    std::vector<std::string> like = {};  ///< of a slot that the material lacks: that whose textureInfo it takes
 };
 
 struct ImagePlan {
@@ -53,8 +61,9 @@ struct ImagePlan {
 /// Reads the materials of a scene; no pixels.
 ///
 ///   bake_roughness  may put the roughness factor of a material into its image
+///   lobes           2: opaque materials with normals and roughness that lie alike get kTwoLobes as well
 ///   throws          Error for an index that points outside its list
-ImagePlan plan_images(const GltfFile& file, bool bake_roughness);
+ImagePlan plan_images(const GltfFile& file, bool bake_roughness, int lobes = 1);
 
 /// The image that a texture shows as PNG, JPEG or WebP; -1: none, or it brings its own levels.
 int source_image(const GltfFile& file, std::size_t texture);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <map>
 #include <set>
 
@@ -92,7 +93,7 @@ public:
           file_(read_gltf_file(input)),
           source_(file_),
           options_(settled(options, source_)),
-          plan_(plan_images(source_, options_.images.bake_roughness)),
+          plan_(plan_images(source_, options_.images.bake_roughness, options_.images.prefilter.lobes)),
           maker_(source_, plan_, options_.images)
     {
         report_.notes = plan_.notes;
@@ -103,6 +104,7 @@ public:
         make_images();
         find_pairs();
         guard_pairs();
+        drop_lobes();
         finish_images();
         place_textures();
         place_images();
@@ -118,12 +120,14 @@ private:
         std::string name;  // of the first material that has it
         std::size_t surface = 0, normals = 0;
         std::set<std::size_t> colors{};
+        std::optional<std::size_t> second{};  // of two lobes
         std::optional<PictureError> error{};
     };
     void make_images();
     void find_pairs();
     void guard_pairs();
     void guard(Pair& pair);
+    void drop_lobes();
     void finish_images();
     void place_textures();
     void place_images();
@@ -164,10 +168,12 @@ void Rewriter::find_pairs()
     for (const TextureSlot& surface : plan_.slots) {
         const ImageRecipe& recipe = plan_.recipes[surface.recipe];
         if (recipe.meaning != ImageMeaning::Surface || recipe.normal < 0) continue;
-        std::optional<std::size_t> normals, color;
+        std::optional<std::size_t> normals, color, second;
         for (const TextureSlot& slot : plan_.slots) {
             if (slot.material != surface.material) continue;
-            if (slot.keys.back() == "normalTexture") normals = slot.recipe;
+            const bool same = plan_.recipes[slot.recipe].lobes == recipe.lobes;
+            if (slot.keys.back() == "normalTexture" && same) normals = slot.recipe;
+            if (slot.keys.back() == "secondLobeTexture" && same) second = slot.recipe;
             if (slot.keys.back() == "baseColorTexture") color = slot.recipe;
         }
         if (!normals) continue;
@@ -178,6 +184,7 @@ void Rewriter::find_pairs()
             const JsonText& material = source_.json.find("materials")->at(surface.material);
             pair = pairs_.insert(pairs_.end(), {name_of(material, "material", surface.material),
                                                 surface.recipe, *normals});
+            pair->second = second;
         }
         if (color) pair->colors.insert(*color);
     }
@@ -194,7 +201,8 @@ void Rewriter::guard(Pair& pair)
                     [&](std::size_t color) { return plan_.recipes[color].normal >= 0; });
     MipTexture& surface = textures_made_[pair.surface];
     const MipTexture& normals = textures_made_[pair.normals];
-    const Prefiltered ours = maker_.as_read(pair.surface, *pictures, surface, normals, darkened);
+    const Prefiltered ours = maker_.as_read(pair.surface, *pictures, surface, normals, darkened,
+                                            pair.second ? &textures_made_[*pair.second] : nullptr);
     if (options_.images.prefilter.rule != "picture") {  // another rule is asked for as it is
         pair.error = PictureError{mean_score(pictures->bench.score(ours)),
                                   mean_score(pictures->bench.score({}))};
@@ -210,6 +218,15 @@ void Rewriter::guard(Pair& pair)
             pictures->level_of(level_extent(surface.width, static_cast<int>(k)),
                                level_extent(surface.height, static_cast<int>(k)));
         if (at < chosen.plain.size() && chosen.plain[at]) surface.levels[k] = plain.levels[k];
+    }
+    if (pair.second && !chosen.plain.empty()) {
+        MipTexture& second = textures_made_[*pair.second];
+        const MipTexture one = maker_.make(*pair.second, true);
+        for (std::size_t k = 0; k < second.levels.size(); ++k) {
+            const std::size_t at = pictures->level_of(level_extent(second.width, static_cast<int>(k)),
+                                                      level_extent(second.height, static_cast<int>(k)));
+            if (at < chosen.plain.size() && chosen.plain[at]) second.levels[k] = one.levels[k];
+        }
     }
     if (chosen.darken) return;
     for (const std::size_t color : pair.colors) plan_.recipes[color].normal = -1;
@@ -241,6 +258,54 @@ void Rewriter::guard_pairs()
         if (planned[r] != plan_.recipes[r]) textures_made_[r] = maker_.make(r);
 }
 
+// Two lobes cost three textures: where they do not show by 1 % there is one.
+void Rewriter::drop_lobes()
+{
+    std::string why;
+    const auto gains = [&](std::size_t material) {
+        why = "two lobes were not looked at, it has one";
+        const Pair* one = nullptr;
+        const Pair* two = nullptr;
+        for (const Pair& pair : pairs_) {
+            for (const TextureSlot& slot : plan_.slots)
+                if (slot.material == material && slot.recipe == pair.surface) (pair.second ? two : one) = &pair;
+        }
+        if (!one || !two || !one->error || !two->error) return false;
+        const PictureScore &with = two->error->shipped, &without = one->error->shipped;
+        if (with.rmse < 0.99 * without.rmse && with.flicker <= without.flicker) return true;
+        char text[160];
+        std::snprintf(text, sizeof(text), "two lobes gain nothing (RMSE %.4f for %.4f, flicker %.4f for %.4f), it has one",
+                      with.rmse, without.rmse, with.flicker, without.flicker);
+        why = text;
+        return false;
+    };
+    std::vector<TextureSlot> kept;
+    std::set<std::size_t> dropped;
+    for (const TextureSlot& slot : plan_.slots) {
+        if (slot.like.empty() || gains(slot.material)) {
+            kept.push_back(slot);
+        } else if (dropped.insert(slot.material).second) {
+            report_.notes.push_back("material " + std::to_string(slot.material) + ": " + why);
+        }
+    }
+    if (dropped.empty()) return;
+    // Recipes that nothing shows any more go, and all move up.
+    std::vector<std::size_t> moved(plan_.recipes.size(), plan_.recipes.size());
+    std::vector<ImageRecipe> recipes;
+    std::vector<MipTexture> made;
+    for (std::size_t r = 0; r < plan_.recipes.size(); ++r) {
+        if (std::none_of(kept.begin(), kept.end(), [&](const TextureSlot& s) { return s.recipe == r; })) continue;
+        moved[r] = recipes.size();
+        recipes.push_back(plan_.recipes[r]);
+        made.push_back(std::move(textures_made_[r]));
+    }
+    for (TextureSlot& slot : kept) slot.recipe = moved[slot.recipe];
+    std::erase_if(pairs_, [&](const Pair& pair) { return moved[pair.surface] == moved.size(); });
+    plan_.slots = std::move(kept);
+    plan_.recipes = std::move(recipes);
+    textures_made_ = std::move(made);
+}
+
 void Rewriter::finish_images()
 {
     for (std::size_t r = 0; r < plan_.recipes.size(); ++r) {
@@ -256,7 +321,7 @@ void Rewriter::finish_images()
     }
     if (!options_.score) return;
     for (const Pair& pair : pairs_)
-        if (pair.error) report_.materials.push_back({pair.name, *pair.error});
+        if (pair.error) report_.materials.push_back({pair.name, *pair.error, pair.second ? 2 : 1});
 }
 
 JsonText& Rewriter::slot_json(const TextureSlot& slot)
@@ -273,6 +338,11 @@ void Rewriter::place_textures()
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> others;  // and recipe -> texture
     const auto& kept = plan_.kept_textures;
     for (const TextureSlot& slot : plan_.slots) {
+        if (!slot.like.empty()) {
+            const JsonText* info = &source_.json.find("materials")->at(slot.material);
+            for (const std::string& key : slot.like) info = info->find(key);
+            slot_json(slot) = *info;
+        }
         const bool stays = std::find(kept.begin(), kept.end(), slot.texture) != kept.end();
         if (!stays && first.emplace(slot.texture, slot.recipe).first->second == slot.recipe) {
             if (replaced_textures_.insert(slot.texture).second)
@@ -395,6 +465,8 @@ void Rewriter::settle_extensions()
 {
     if (plan_.recipes.empty()) return;
     add_word(file_.json, "extensionsUsed", kBasis);
+    if (std::any_of(plan_.slots.begin(), plan_.slots.end(), [](const TextureSlot& s) { return !s.like.empty(); }))
+        add_word(file_.json, "extensionsUsed", kTwoLobes);
     if (!options_.fallback) add_word(file_.json, "extensionsRequired", kBasis);
     const JsonText& textures = list(file_.json, "textures");
     for (std::size_t t = 0; t < textures.size(); ++t) {

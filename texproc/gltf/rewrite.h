@@ -31,6 +31,7 @@ struct GltfBuildReport {
     struct MadeMaterial {
         std::string name;
         PictureError picture;
+        int lobes = 1;  ///< 2: as who knows kTwoLobes sees it
     };
     std::vector<MadeImage> images;
     std::vector<MadeMaterial> materials;  ///< whose normals and roughness were filtered together
@@ -40,7 +41,9 @@ struct GltfBuildReport {
 
 /// Writes a scene again with the textures of its materials as KTX2 in UASTC with all their levels
 /// (KHR_texture_basisu), prefiltered by the rule; everything else byte for byte: meshes,
-/// animations, unknown extensions, Draco and meshopt data. A .glb gives a .glb, a .gltf a .gltf
+/// animations, unknown extensions, Draco and meshopt data. With PrefilterChoice::lobes 2 (the rule picture
+/// in full) materials get the textures of two lobes beside their own, as kTwoLobes, where their pictures are
+/// better with them. A .glb gives a .glb, a .gltf a .gltf
 /// with its images and its other files beside. Same bytes at any thread count.
 ///
 ///   throws  Error for a scene or an image that cannot be read, another extension than the input's,

@@ -24,6 +24,8 @@ const char* text_of(texproc::ImageMeaning meaning)
             return "normals";
         case texproc::ImageMeaning::Surface:
             return "roughness";
+        case texproc::ImageMeaning::SecondLobe:
+            return "2nd lobe";
         case texproc::ImageMeaning::Data:
             break;
     }
@@ -44,6 +46,16 @@ void check(const SceneBuild& build)
             "texture build: a scene holds its levels in ktx2, not in " + build.choice.format,
             "Leave --format out.");
     }
+    if (build.choice.lobes == 2) {
+        if (build.choice.quality != "full" || (!build.choice.rule.empty() && build.choice.rule != "picture")) {
+            throw Error("texture build: a second lobe is fitted by the rule picture in full quality alone",
+                        "Add --quality full, or leave --lobes out.");
+        }
+        if (build.fallback) {
+            throw Error("texture build: --fallback is for readers that know no KTX2, which know no second lobe",
+                        "Leave --fallback or --lobes out.");
+        }
+    }
     if (build.out.empty() && !build.dry_run) {
         throw Error("texture build: no output scene",
                     "Give -o better" + build.in.extension().string() + ".");
@@ -53,7 +65,7 @@ void check(const SceneBuild& build)
 void list_plan(const SceneBuild& build)
 {
     const texproc::GltfFile file = texproc::read_gltf_file(build.in);
-    const texproc::ImagePlan plan = texproc::plan_images(file, !build.fallback);
+    const texproc::ImagePlan plan = texproc::plan_images(file, !build.fallback, build.choice.lobes);
     for (const texproc::ImageRecipe& recipe : plan.recipes) {
         std::printf("image %zu as %s%s\n", recipe.image, text_of(recipe.meaning),
                     recipe.normal >= 0
@@ -84,10 +96,10 @@ void report(const texproc::GltfBuildReport& made)
         std::cout << "pictures of lit floors against the truth, plain mips -> as written:\n";
     for (const auto& material : made.materials) {
         const auto& [shipped, plain] = material.picture;
-        std::printf("%-36s RMSE %.4f -> %.4f (%+.1f %%)  flicker %.4f -> %.4f (%+.1f %%)\n",
+        std::printf("%-36s RMSE %.4f -> %.4f (%+.1f %%)  flicker %.4f -> %.4f (%+.1f %%)%s\n",
                     material.name.c_str(), plain.rmse, shipped.rmse,
                     percent(shipped.rmse, plain.rmse), plain.flicker, shipped.flicker,
-                    percent(shipped.flicker, plain.flicker));
+                    percent(shipped.flicker, plain.flicker), material.lobes == 2 ? "  two lobes" : "");
     }
     for (const std::string& note : made.notes) std::cout << "note: " << note << "\n";
     std::printf("%zu images, %.1f -> %.1f MiB; wrote %s\n", made.images.size(),
@@ -138,10 +150,6 @@ bool build_scene(const SceneBuild& build)
         list_plan(build);
         return true;
     }
-    if (build.choice.lobes == 2) {
-        throw Error("texture build: glTF has no place for a second lobe of a texel",
-                    "Leave --lobes out, or build the textures of the scene for an engine.");
-    }
     texproc::GltfBuildOptions options;
     options.images.size = build.choice.size;
     options.images.threads = build.threads;
@@ -153,6 +161,7 @@ bool build_scene(const SceneBuild& build)
     if (build.choice.rdo_most) options.images.rdo_most = *build.choice.rdo_most;
     if (!build.choice.quality.empty())
         options.images.prefilter.quick = build.choice.quality == "quick";
+    options.images.prefilter.lobes = build.choice.lobes == 2 ? 2 : 1;
     if (options.images.prefilter.rule != "none") texproc::rule_named(options.images.prefilter.rule);
     report(texproc::build_gltf(build.in, build.out, options));
     return true;

@@ -1,11 +1,19 @@
 // The standard model with what lies over and in it: clear coat, sheen, anisotropic highlights, light
-// through thin sheets (formulas/light/layers.h). Materials that have one of these get it unless they
+// through thin sheets (formulas/light/layers.h), a second lobe of its texels (formulas/light/two_lobes.h). Materials that have one of these get it unless they
 // name another. Its mirror image of the surroundings is that of the base; the pass adds the coat's.
 #include "gpu/lighting/models/lighting_model.glsl"
 
 vec3 layered_light(LitPoint p, vec3 to_light)
 {
-    return shade_layered_lobe(p.lobe, to_light, p.albedo, p.roughness, p.layers);
+    Lobe lobe = p.lobe;
+    vec3 base;
+    if (p.second.share > 0.0) {
+        base = shade_two_lobes(lobe, p.second.lobe, p.second.share, p.normal, to_light);
+        lobe.normal = p.normal;
+    } else {
+        base = shade_lobe(lobe, to_light);
+    }
+    return shade_layers_over(base, lobe, to_light, p.albedo, p.roughness, p.layers);
 }
 
 Reflected layered_surround(LitPoint p, Surroundings s)

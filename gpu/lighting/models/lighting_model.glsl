@@ -26,6 +26,7 @@
 #include "formulas/light/ltc.h"
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/translucent.h"
+#include "formulas/light/two_lobes.h"
 #include "formulas/light/water_film.h"
 
 // What lamps that have a size need to know of the surface and the eye: the same for every lamp.
@@ -36,6 +37,16 @@ struct ShapedLobes {
     vec2 split_sum;    // scale and offset of F0
     float film_keeps;  // of light of the surface below, on the way out
     float film_mirrors;
+    Frame3 second_lobe;  // of a surface of two lobes
+    vec2 second_sum;
+};
+
+// A second lobe of what is mirrored. Then LitPoint.lobe is the first, with the first's normal, and
+// LitPoint.normal is that of what is diffuse.
+struct LobeBeside {
+    Lobe lobe;        // its diffuse part is the first's
+    float roughness;  // perceptual
+    float share;      // of what is mirrored; 0: there is none
 };
 
 // Light of sun and lamps, gathered before the material is asked. What the two mean is the model's.
@@ -65,6 +76,7 @@ struct LitPoint {
     uint model;        // its number
     uint gathers;      // one of GATHERS_...; the pass's own
     Lobe lobe;         // of GGX, made ready for shade_lobe()
+    LobeBeside second;  // of the material's small levels
     Layers layers;     // coat, sheen and so on of the material; zero where it has none
     Translucency translucency;  // of the material; the pass adds it
     float curvature;   // of skin, 0 flat .. 1

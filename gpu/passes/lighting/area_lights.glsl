@@ -135,6 +135,8 @@ LitPoint matt_part(LitPoint p)
     q.specular = vec3(0.0);
     q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), vec3(0.0),
                        p.roughness * p.roughness);
+    q.second.lobe.lit = 0.0;
+    q.second.lobe.f0 = vec3(0.0);
     return q;
 }
 
@@ -158,8 +160,17 @@ ShapedLobes shaped_lobes(LitPoint p)
     ShapedLobes lobes;
     if ((WAYS & LIGHTS_LTC) != 0u || RECTANGLES != 0u) {
         lobes.surface = surface_frame(p.normal, p.view);
-        lobes.lobe = lobe_frame(lobes.surface, ltc_matrix(p.roughness, clamp(dot(p.normal, p.view), 0.0, 1.0)));
-        lobes.split_sum = split_sum(p.normal, p.view, p.roughness);
+        const vec3 n = p.lobe.normal;
+        const float nv = clamp(dot(n, p.view), 0.0, 1.0);
+        if (TWO_LOBES) {
+            const vec3 other = p.second.lobe.normal;
+            lobes.lobe = lobe_frame(surface_frame(n, p.view), ltc_matrix(p.roughness, nv));
+            lobes.second_lobe = lobe_frame(surface_frame(other, p.view), ltc_matrix(p.second.roughness, clamp(dot(other, p.view), 0.0, 1.0)));
+            lobes.second_sum = split_sum(other, p.view, p.second.roughness);
+        } else {
+            lobes.lobe = lobe_frame(lobes.surface, ltc_matrix(p.roughness, nv));
+        }
+        lobes.split_sum = split_sum(n, p.view, p.roughness);
     }
     if (FILM != 0u && ((WAYS & LIGHTS_LTC) != 0u || RECTANGLES != 0u)) {
         const float nv = clamp(dot(p.film.normal, p.view), 0.0, 1.0);
@@ -180,14 +191,19 @@ vec3 film_over(LitPoint p, vec3 in_film, vec3 l, vec3 below, float highlight)
            vec3(p.shaped.film_mirrors * (cosine_share(in_film) * highlight * p.film.lit));
 }
 
-// Highlight of GGX's lobe of a shape that glows or is a lamp.
-//   in_lobe  its irradiance where the lobe is a cosine
-vec3 shape_highlight(LitPoint p, vec3 in_lobe, float highlight)
+// Highlight of GGX's lobes of a shape that glows or is a lamp.
+//   in_lobe    its irradiance where the lobe is a cosine
+//   in_second  the same of the second lobe; counts where there is one
+vec3 shape_highlight(LitPoint p, vec3 in_lobe, vec3 in_second, float highlight)
 {
     const float nv = clamp(dot(p.normal, p.view), 0.0, 1.0);
-    const vec2 sum = p.shaped.split_sum;
     const float kept = 1.0 - p.layers.coat * coat_fresnel(nv);
-    return (p.specular * sum.x + vec3(sum.y)) * (cosine_share(in_lobe) * highlight * kept * kept);
+    vec3 mirrored = mirrored_by(p.specular, p.shaped.split_sum) * cosine_share(in_lobe);
+    if (TWO_LOBES) {
+        const vec3 other = mirrored_by(p.specular, p.shaped.second_sum) * cosine_share(in_second);
+        mirrored = mix(mirrored, other, p.second.share);
+    }
+    return mirrored * (highlight * kept * kept);
 }
 
 // By linearly transformed cosines. Highlights of other shapes than GGX's, of coats, fibres and hair, are
@@ -225,7 +241,9 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
         radiance += p.albedo * (p.layers.transmitted * cosine_share(vec3(f.xy, -f.z)));
     }
     if (ggx && p.lobe.lit > 0.0 && specular > 0.0) {
-        radiance += shape_highlight(p, outline_irradiance(o, p.shaped.lobe), specular);
+        vec3 in_second = vec3(0.0);
+        if (TWO_LOBES) in_second = outline_irradiance(o, p.shaped.second_lobe);
+        radiance += shape_highlight(p, outline_irradiance(o, p.shaped.lobe), in_second, specular);
     }
     if (FILM != 0u)
         radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight < 0.0 ? glow_highlight(p.film.roughness) : highlight);
@@ -246,7 +264,7 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
 // From the point that is nearest to what is mirrored, as Lux 2.02: `strength` is that of the middle.
 vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3 strength, float visible)
 {
-    const vec3 mirrored = reflect(-p.view, p.normal);
+    const vec3 mirrored = reflect(-p.view, p.lobe.normal);
     const float alpha = max(p.roughness * p.roughness, 0.05);
     const NearestLight at = nearest_light(centre, half_axis, size.x, mirrored, alpha);
     LitPoint bright = p;
@@ -254,7 +272,7 @@ vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3
     bright.diffuse = vec3(0.0);
     bright.layers.sheen = vec3(0.0);
     bright.roughness = sqrt(alpha);
-    bright.lobe = make_lobe(p.normal, p.view, vec3(0.0), p.specular, alpha);
+    bright.lobe = make_lobe(p.lobe.normal, p.view, vec3(0.0), p.specular, alpha);
     LitPoint matt = matt_part(p);
     if (GATHERS != 0u && p.gathers == GATHERS_DIFFUSE) bright.gathers = GATHERS_REST;
     if (GATHERS != 0u && p.gathers == GATHERS_SPECULAR) matt.gathers = GATHERS_REST;
@@ -341,7 +359,11 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
     if (ggx && p.lobe.lit > 0.0 && highlight > 0.0) {
         const vec3 in_lobe = rectangle_irradiance(through(p.shaped.lobe, centre), through(p.shaped.lobe, half_u),
                                                   through(p.shaped.lobe, half_v));
-        radiance += shape_highlight(p, in_lobe, highlight);
+        vec3 in_second = vec3(0.0);
+        if (TWO_LOBES)
+            in_second = rectangle_irradiance(through(p.shaped.second_lobe, centre), through(p.shaped.second_lobe, half_u),
+                                             through(p.shaped.second_lobe, half_v));
+        radiance += shape_highlight(p, in_lobe, in_second, highlight);
     }
     const float q2 = dot(centre, centre) * light.inverse_reach2;
     const vec3 shines = color.rgb * clamp(1.0 - light.size.y * q2 * q2, 0.0, 1.0);

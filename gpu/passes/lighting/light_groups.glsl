@@ -58,7 +58,7 @@ float most_toward(LitGroup group, vec3 low, vec3 high)
 }
 
 // Light may come from behind the surface.
-const bool FROM_BEHIND = (LAYERS & (LAYERS_TRANSLUCENT | LAYERS_SKIN | LAYERS_TRANSMISSION)) != 0u;
+const bool FROM_BEHIND = (LAYERS & (LAYERS_TRANSLUCENT | LAYERS_SKIN | LAYERS_TRANSMISSION | LAYERS_SECOND_LOBE)) != 0u;
 
 // shadowed, shaped: as of punctual_light.
 bool may_light(LitGroup group, int light, const bool shadowed, const bool shaped)

@@ -75,7 +75,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
     if (one_of_shape) return vec3(0.0);
     const float inverse = inversesqrt(max(d2, 1.0e-8));
     const vec3 l = to_light * inverse;
-    lit = lit && (dot(p.normal, l) > 0.0 || p.layers.transmitted > 0.0 || BLEEDS);
+    lit = lit && (dot(p.normal, l) > 0.0 || p.layers.transmitted > 0.0 || BLEEDS || TWO_LOBES);
     if (SKIPS && !lit) return vec3(0.0);
     const vec4 color = light.color;
     float falloff = square_attenuation(d2, inverse, light.inverse_reach2);

@@ -213,6 +213,7 @@ vec3 model_own(LitPoint p)
     return radiance;
 }
 
+#include "gpu/passes/lighting/two_lobes.glsl"
 #include "gpu/passes/lighting/light_rows.glsl"
 #include "gpu/passes/lighting/area_lights.glsl"
 #include "gpu/passes/lighting/light_groups.glsl"
@@ -369,6 +370,8 @@ void main()
         }
         WeatheredMaterial m = dry_material(dry);
         vec3 n = g.base_normal;
+        DryLobe beside = DryLobe(n, 1.0, 0.0);
+        if (TWO_LOBES) beside = dry_second_lobe(g.model, texel);
         WaterFilm film = WaterFilm(0.0, 1.0, 0.0, 0.0, n);
         float closed = 0.0;  // share of a flat water surface over the relief
         if (WEATHER != 0u) {
@@ -393,18 +396,36 @@ void main()
                 m = apply_weather(dry, state, below, frame.look);
                 film = water_film(dry, state, frame.weather);
                 m = below_film(m, film.share);
-                film.normal = normalize(mix(g.base_normal, g.cover_normal, film.level));
+                if (TWO_LOBES) {
+                    DryMaterial other = dry;
+                    other.roughness = beside.roughness;
+                    beside.roughness = 1.0 - below_film(apply_weather(other, state, below, frame.look), film.share).smoothness;
+                }
+                vec3 below_normal = g.base_normal;
+                if (TWO_LOBES) below_normal = mix(below_normal, beside.normal, beside.share);
+                film.normal = normalize(mix(below_normal, g.cover_normal, film.level));
                 const float film_facing = dot(film.normal, v);
                 if (film_facing < 0.02) film.normal = normalize(film.normal + v * (0.02 - film_facing));
             } else {
                 m = apply_weather(dry, state, frame.weather, frame.look);
+                if (TWO_LOBES) {
+                    DryMaterial other = dry;
+                    other.roughness = beside.roughness;
+                    beside.roughness = 1.0 - apply_weather(other, state, frame.weather, frame.look).smoothness;
+                }
             }
             closed = closed_water(state);
             n = normalize(mix(n, g.cover_normal, m.normal_mix));
+            if (TWO_LOBES) beside.normal = normalize(mix(beside.normal, g.cover_normal, m.normal_mix));
         }
         // A normal map must not turn a visible point away from the eye.
         const float facing = dot(n, v);
         if (facing < 0.02) n = normalize(n + v * (0.02 - facing));
+        const vec3 first_normal = n;  // of the lobe, where what is diffuse has another
+        if (TWO_LOBES && beside.share > 0.0) {
+            beside.normal = toward_eye(beside.normal, v);
+            n = normalize(mix(n, beside.normal, beside.share));
+        }
         if (SNOW_SCATTER != 0u) m.albedo = snow_scattered(m.albedo, frame.look, dot(n, v), g.weather.z);
         LitPoint p;
         p.position = position;
@@ -427,7 +448,13 @@ void main()
         p.point_lamps = (WAYS & LIGHTS_BY_MATERIAL) != 0u &&
                         texelFetch(material_looks, int(g.material) * MATERIAL_LOOK_TEXELS + 3).w > 0.5;
         p.film = film;
-        vec3 mirror_normal = n;
+        p.second = LobeBeside(Lobe(n, v, vec3(0.0), vec3(0.0), 1.0, 1.0, 1.0, 0.0), 1.0, 0.0);
+        if (TWO_LOBES && beside.share > 0.0) {
+            p.second.roughness = clamp(beside.roughness, 0.045, 1.0);
+            p.second.share = beside.share;
+            p.second.lobe = make_lobe(beside.normal, v, vec3(0.0), m.specular, p.second.roughness * p.second.roughness);
+        }
+        vec3 mirror_normal = first_normal;
         if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {
             p.model = uint(LIGHTING_MODEL_LAYERED);  // with none it is the same
         }
@@ -440,7 +467,7 @@ void main()
             const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
             LayerShares share = all_shares(n);
             if (SHARES != 0u) {
-                share = unpack_shares(texelFetch(layer_shares, texel, 0));
+                share = unpack_shares(texelFetch(layer_shares, texel, 0), has_second_lobe(g.model));
                 // Under snow and standing water it is what they cover all with.
                 p.layers.other_normal = share.other_normal;
                 if (WEATHER != 0u)
@@ -476,7 +503,7 @@ void main()
                 }
             }
         }
-        p.lobe = make_lobe(n, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
+        p.lobe = make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
                            p.roughness * p.roughness);
 
         p.shaped = shaped_lobes(p);
@@ -490,7 +517,7 @@ void main()
         const float sun_lit = dot(n, frame.sun_direction);
         bool sunny = false;
         vec3 sunlight = vec3(0.0);
-        if (SUN != 0u && (sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
+        if (SUN != 0u && (sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS || TWO_LOBES) &&
             frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             float visible = 1.0;
             if (SHADOWS != 0u) visible = sun_visibility(position, p.mesh_normal, view_m, texel);
@@ -541,7 +568,7 @@ void main()
             s.irradiance_behind = vec3(0.0);
             s.occlusion = m.occlusion;
             s.specular_occlusion = 0.0;
-            s.split_sum = split_sum(n, v, p.roughness);
+            s.split_sum = split_sum(first_normal, v, p.roughness);
             s.scale = 1.0;
             const vec3 baked = model_surround(p, s).radiance;
             radiance += baked;
@@ -562,12 +589,20 @@ void main()
             if (BAKED != 0u) s.irradiance *= 1.0 - g.baked_sky;
             // A water surface lies above the crevices that its ground has.
             const float mirror_occlusion = mix(m.occlusion * around.screen, 1.0, closed);
+            float mean_roughness = p.roughness;
+            if (TWO_LOBES) mean_roughness = mix(p.roughness, p.second.roughness, p.second.share);
             // Lagarde and de Rousiers 2014.
             s.specular_occlusion =
-                saturate(pow(nv + mirror_occlusion, exp2(-16.0 * p.roughness - 1.0)) - 1.0 +
+                saturate(pow(nv + mirror_occlusion, exp2(-16.0 * mean_roughness - 1.0)) - 1.0 +
                          mirror_occlusion);
             if (HORIZON != 0u) s.specular_occlusion *= horizon_occlusion(p, mirror_normal, texel);
-            s.split_sum = split_sum(n, v, p.roughness);
+            s.split_sum = split_sum(first_normal, v, p.roughness);
+            vec3 of_second = vec3(0.0);  // of what is mirrored
+            if (TWO_LOBES && p.second.share > 0.0) {
+                const vec2 other = split_sum(p.second.lobe.normal, v, p.second.roughness);
+                of_second = share_of_second(p, s.split_sum, other);
+                s.split_sum = mix(s.split_sum, other, p.second.share);
+            }
             s.scale = frame.ambient_scale;
             Reflected reflected = model_surround(p, s);
             vec3 coat = vec3(0.0);
@@ -609,7 +644,27 @@ void main()
                 radiance += over;
                 blurred += over;
             }
-            if (p.roughness < kMirrorRoughness && !coated && !filmed) {
+            const bool first_sharp = p.roughness < kMirrorRoughness;
+            const bool sharp = !coated && !filmed && first_sharp;
+            if (TWO_LOBES && p.second.share > 0.0) {
+                const vec3 second_mirror = reflected.mirror * of_second;
+                const vec3 first_mirror = reflected.mirror - second_mirror;
+                const vec3 second_normal = p.second.lobe.normal;
+                const bool second_sharp = p.second.roughness < kMirrorRoughness;
+                const bool traced = !coated && !filmed && (first_sharp || second_sharp);
+                vec3 base = vec3(0.0);
+                if (!traced || !first_sharp) base += first_mirror * rough_mirror(p, around, probed, mirror_normal, p.roughness);
+                if (!traced || !second_sharp) base += second_mirror * rough_mirror(p, around, probed, second_normal, p.second.roughness);
+                if (traced) {
+                    vec4 lobe = joined_lobe(p, mirror_normal);
+                    if (!second_sharp) lobe = vec4(mirror_normal, p.roughness);
+                    if (!first_sharp) lobe = vec4(second_normal, p.second.roughness);
+                    mirror = vec4(first_sharp && second_sharp ? reflected.mirror : first_sharp ? first_mirror : second_mirror, closed);
+                    shape = vec4(octahedral_encode(lobe.xyz), lobe.w, sky_open);
+                }
+                radiance += base;
+                blurred += base;
+            } else if (sharp) {
                 mirror = vec4(reflected.mirror, closed);
                 shape = vec4(octahedral_encode(mirror_normal), p.roughness, sky_open);
             } else {

@@ -10,6 +10,7 @@
 
 #include "formulas/geometry/footprint.h"
 #include "formulas/light/layers.h"
+#include "formulas/light/second_lobe.h"
 #include "formulas/weather/ground_tone.h"
 #include "gpu/passes/surface/beads.glsl"
 #include "gpu/passes/surface/cover.glsl"
@@ -187,6 +188,13 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.body = 1.0;
     if ((BESIDES & BESIDES_IRIDESCENT) != 0u) add_thin_film(data.texel, at, shift);
     if ((BESIDES & BESIDES_SHARES) != 0u) data.shares = layer_shares(at, f, normal, shift);
+    if ((BESIDES & BESIDES_SHARES) != 0u && has_layer(LAYER_TEXTURE_SECOND_LOBE)) {
+        const SecondLobe lobe = second_lobe_of(layer_texel(LAYER_TEXTURE_SECOND_LOBE, at, shift, 1.0));
+        const vec2 slope = lobe.normal.xy * material.normal_scale;
+        data.shares.second_normal = normalize(to_world(f, vec3(slope, sqrt(1.0 - saturate(dot(slope, slope))))));
+        data.shares.second_roughness = widened_by_curvature(lobe.roughness * factors.roughness, at);
+        data.shares.second_share = lobe.share;
+    }
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
     data.texel.material = at.material_id;
     data.texel.snow_smoothness = cover.snow_smoothness;

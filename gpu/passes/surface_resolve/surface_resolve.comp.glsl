@@ -190,5 +190,5 @@ void main()
     if (when_ && (SURFACE_PAYLOAD != 0u || location_ != GBUFFER_PAYLOAD)) imageStore(out_##name, pixel, code.name);
     GBUFFER_TABLE(ROW)
 #undef ROW
-    if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares));
+    if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares, has_layer(LAYER_TEXTURE_SECOND_LOBE)));
 }

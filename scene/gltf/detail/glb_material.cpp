@@ -145,6 +145,14 @@ void add_material(GlbDocument& glb, const scene::Scene& scene, const scene::Mate
         }
     }
     write_specular_workflow(glb, scene, m, out);
+    if (m.maps.second_lobe.present()) {
+        // Readers of one lobe get the first of two: what the scene had for them is not kept.
+        for (const GltfPlace& place : {first_lobe_normal_place(), first_lobe_roughness_place()}) {
+            const bool normal = place.member == first_lobe_normal_place().member;
+            const scene::TextureUse& use = normal ? m.normal_texture : m.metallic_roughness_texture;
+            if (use.present()) holder_of(out, place)[std::string(place.member)] = texture_info(glb, scene, use);
+        }
+    }
     const auto add_shader = [&](const GltfPlace& place, const std::string& name) {
         // Of a file its name: it lies beside the scene.
         if (!name.empty())
