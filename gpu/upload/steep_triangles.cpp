@@ -14,7 +14,7 @@ constexpr float kPondsFrom = 0.3f;
 // What rounding may add to a normal between corners.
 constexpr float kSlack = 1.0e-4f;
 // A shorter text for less of a material's area than this is not worth its pipeline.
-constexpr double kLeastShare = 0.1;
+constexpr double kLeastShare = 0.25;
 
 bool stays(const Draw& draw)
 {

@@ -122,7 +122,8 @@ void update_draws(const Device& device, ResolveTables& tables, const GpuScene& s
 
 std::uint8_t listed_steep(const VisibleWeather& weather)
 {
-    if (!weather.water) return 0;
+    // Snow and frost ask every slope for its bumps; what is left to spare is not worth more pipelines at a first start.
+    if (!weather.water || weather.snow || weather.frost) return 0;
     return weather.place ? SteepTriangles::kUpright : SteepTriangles::kDry;
 }
 

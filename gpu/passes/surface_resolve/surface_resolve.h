@@ -35,7 +35,7 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
 /// Brings the transforms up to the scene's pose.
 void update_draws(const Device& device, ResolveTables& tables, const GpuScene& scene);
 
-/// What of SteepTriangles the lists of a frame keep apart.
+/// What of SteepTriangles the lists of a frame keep apart: in rain, without snow and frost.
 std::uint8_t listed_steep(const VisibleWeather& weather);
 
 // Fills the G-buffer from a visibility buffer (passes/visibility): every pixel is evaluated once,
