@@ -239,7 +239,7 @@ void add_texture_build(CLI::App& texture)
         ->check(CLI::IsMember({"full", "quick"}));
     app->add_option("--lobes", a->choice.lobes,
                     "of a texel of the small levels: 2 adds a texture {name}_second_lobe that a shader reads as "
-                    "formulas/light/second_lobe.h says (rule picture, quality full)")
+                    "formulas/light/second_lobe.h says; a scene gets it as PETRICHOR_materials_two_lobes (rule picture, quality full)")
         ->check(CLI::Range(1, 2));
     app->add_option("--format", a->choice.format, "of all outputs")
         ->check(CLI::IsMember({"png", "tga", "tif", "exr", "dds", "ktx2"}));

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -637,6 +638,23 @@ TEST(TextureBuild, ASecondLobeGoesWithTheNormals)
         command.insert(command.end(), wrong.begin(), wrong.end());
         EXPECT_EQ(run(command, place).exit_code, 2);
     }
+}
+
+// A scene gets them as an extension, from the one rule that fits them, for readers that know KTX2.
+TEST(TextureBuild, TwoLobesOfASceneAskForTheirRule)
+{
+    const Workplace place("build-scene-lobes");
+    std::ofstream(place / "in.gltf") << R"({"asset": {"version": "2.0"}})";
+    const auto built = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> command{"texture", "build", "in.gltf", "-o", "out.gltf", "--lobes", "2"};
+        command.insert(command.end(), more.begin(), more.end());
+        return run(command, place).exit_code;
+    };
+    EXPECT_EQ(built({"--quality", "full"}), 0);
+    EXPECT_EQ(built({}), 2);
+    EXPECT_EQ(built({"--quality", "quick"}), 2);
+    EXPECT_EQ(built({"--quality", "full", "--rule", "median"}), 2);
+    EXPECT_EQ(built({"--quality", "full", "--fallback"}), 2);
 }
 
 // A leaf, green where its own opacity map says so and black elsewhere.
