@@ -487,9 +487,10 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         // Within cells: at their borders the last bit chooses another.
         const vec2 at = 0.034f * (floor(40.0f * vec2(a.x, a.y)) + splat2(0.5f));
         const float over = 0.05f * (b.y - 0.5f);
-        const vec2 slope = thaw_slope(at, 0.1f * c.x, a.w);
-        return vec4(snow_body_share(0.07f * a.z, over, at, a.w) + snow_body_at(0.07f * a.z, over, at, a.w).wets, snow_body_code(0.07f * b.x) + slope.x,
-                    settled_snow_m(0.07f * a.z, over) + slope.y, slush_share(0.07f * a.z, b.y, at, a.w));
+        const SnowBody body = snow_body_at(0.07f * a.z, over, at, a.w);
+        const vec2 slope = thaw_slope(body.slope, 0.1f * c.x, a.w);
+        return vec4(body.share + body.wets, snow_body_code(0.07f * b.x) + slope.x,
+                    settled_snow_m(0.07f * a.z, over) + slope.y, slush_share(0.07f * a.z, b.y, body.ragged, at, a.w));
     }
     if (kind == 56) {
         const vec2 st = 2.0f * vec2(a.y, a.z) - splat2(1.0f);

@@ -73,6 +73,23 @@ SHARED_FN float endless_noise(vec2 p, uint seed)
     return mix(mix(a, b, u.x), mix(c, d, u.x), u.y);
 }
 
+// The same, and its slopes along x and y.
+SHARED_FN vec3 endless_noise_sloped(vec2 p, uint seed)
+{
+    const vec2 base = floor(p);
+    const vec2 f = p - base;
+    const vec2 u = f * f * f * (f * (f * 6.0f - 15.0f) + 10.0f);
+    const vec2 rise = 30.0f * f * f * (f - 1.0f) * (f - 1.0f);
+    const ivec2 cell = ivec2(base);
+    const uint x = uint(cell.x), y = uint(cell.y);
+    const float a = hash_f(hash_u3(x, y, seed));
+    const float b = hash_f(hash_u3(x + 1u, y, seed));
+    const float c = hash_f(hash_u3(x, y + 1u, seed));
+    const float d = hash_f(hash_u3(x + 1u, y + 1u, seed));
+    const float low = mix(a, b, u.x), high = mix(c, d, u.x);
+    return vec3(mix(low, high, u.y), rise.x * mix(b - a, d - c, u.y), rise.y * (high - low));
+}
+
 // The same in space.
 SHARED_FN float endless_noise_3(vec3 p, uint seed)
 {

@@ -81,24 +81,38 @@ TEST(SnowBodyShare, ThawingSnowIsSlushWhereItIsThinOrLiesInWater)
     constexpr std::uint32_t kPlaces = 2000;
     for (std::uint32_t i = 0; i < kPlaces; ++i) {
         const vec2 at = somewhere(i);
-        EXPECT_EQ(slush_share(0.02f, 1.0f, at, 0.0f), 0.0f) << "in frost";
-        EXPECT_EQ(glm::length(thaw_slope(at, 0.0f, 0.0f)), 0.0f);
+        const SnowBody body = snow_body_at(0.03f, 0.0f, at, 1.0f);
+        const auto slush = [&](float deep_m, float soaked, float melt) { return slush_share(deep_m, soaked, body.ragged, at, melt); };
+        EXPECT_EQ(slush(0.02f, 1.0f, 0.0f), 0.0f) << "in frost";
+        EXPECT_EQ(glm::length(thaw_slope(body.slope, 0.0f, 0.0f)), 0.0f);
         float before = 0.0f;
         for (const float soaked : {0.0f, 0.3f, 0.7f, 1.0f}) {
-            const float share = slush_share(0.02f, soaked, at, 0.3f);
+            const float share = slush(0.02f, soaked, 0.3f);
             EXPECT_GE(share, before);
             EXPECT_LE(share, 0.8f);
-            EXPECT_GE(share, slush_share(0.05f, soaked, at, 0.3f));
+            EXPECT_GE(share, slush(0.05f, soaked, 0.3f));
             before = share;
         }
-        EXPECT_GT(slush_share(0.06f, 1.0f, at, 0.4f), 0.3f) << "what lies in a gutter that runs";
-        thin += static_cast<double>(slush_share(0.015f, 0.0f, at, 1.0f)) / kPlaces;
-        deep += static_cast<double>(slush_share(0.06f, 0.0f, at, 1.0f)) / kPlaces;
-        slopes += static_cast<double>(thaw_slope(at, 0.0f, 1.0f).x) / kPlaces;
-        EXPECT_LT(glm::length(thaw_slope(at, 0.5f, 1.0f)), glm::length(thaw_slope(at, 0.0f, 1.0f)) + 1e-6f);
+        EXPECT_GT(slush(0.06f, 1.0f, 0.4f), 0.3f) << "what lies in a gutter that runs";
+        thin += static_cast<double>(slush(0.015f, 0.0f, 1.0f)) / kPlaces;
+        deep += static_cast<double>(slush(0.06f, 0.0f, 1.0f)) / kPlaces;
+        slopes += static_cast<double>(thaw_slope(body.slope, 0.0f, 1.0f).x) / kPlaces;
+        EXPECT_LT(glm::length(thaw_slope(body.slope, 0.5f, 1.0f)), glm::length(thaw_slope(body.slope, 0.0f, 1.0f)) + 1e-6f);
     }
     EXPECT_GT(thin, 2.0 * deep);
     EXPECT_NEAR(slopes, 0.0, 0.02) << "it leans no way in the mean";
+}
+
+TEST(SnowBodyShare, ItsSlopeIsThatOfItsNoise)
+{
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        const vec2 p = somewhere(i) / 20.0f;
+        const vec3 here = endless_noise_sloped(p, 72u);
+        EXPECT_EQ(here.x, endless_noise(p, 72u));
+        const float step = 1.0f / 512.0f;
+        EXPECT_NEAR((endless_noise(p + vec2(step, 0.0f), 72u) - endless_noise(p - vec2(step, 0.0f), 72u)) / (2.0f * step), here.y, 0.01f);
+        EXPECT_NEAR((endless_noise(p + vec2(0.0f, step), 72u) - endless_noise(p - vec2(0.0f, step), 72u)) / (2.0f * step), here.z, 0.01f);
+    }
 }
 
 // Beside what is left of it the ground is wet, and nowhere in frost.

@@ -179,9 +179,9 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
             for (int k = 0; k < (frame.weather.melt_exp > 0.0 ? 1 : 0); ++k) {
                 const float thaws = at.weather.a < 0.999 ? 1.0 : 0.0;
                 const vec3 wide = max(abs(at.position_dx), abs(at.position_dy));
-                const vec2 slope = thaw_slope(at.position.xz, max(wide.x, wide.z), frame.weather.melt_exp) * thaws;
+                const vec2 slope = thaw_slope(own_body.slope, max(wide.x, wide.z), frame.weather.melt_exp) * thaws;
                 relief.normal = normalize(relief.normal - vec3(slope.x, 0.0, slope.y));
-                c.snow *= 1.0 - thaws * slush_share(snow_deep_m(at), soaked, at.position.xz, frame.weather.melt_exp);
+                c.snow *= 1.0 - thaws * slush_share(snow_deep_m(at), soaked, own_body.ragged, at.position.xz, frame.weather.melt_exp);
             }
         }
         c.snow_smoothness = relief.smoothness;

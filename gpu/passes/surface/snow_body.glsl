@@ -11,7 +11,7 @@ float snow_deep_m(SurfaceInput at) { return (1.0 - at.weather.a) * SNOW_BODIED_M
 // Snow of its own at a point; none on all that is not snow. over_m: as stands_over_m().
 SnowBody snow_body(SurfaceInput at, float over_m)
 {
-    if ((SNOW & SNOW_BODY) == 0u || at.weather.a >= 0.999) return SnowBody(0.0, 0.0);
+    if ((SNOW & SNOW_BODY) == 0u || at.weather.a >= 0.999) return SnowBody(0.0, 0.0, 0.5, vec2(0.0));
     return snow_body_at(snow_deep_m(at), over_m, at.position.xz, frame.weather.melt_exp);
 }
 
