@@ -343,7 +343,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 31) {
         const vec2 xz = vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f);
-        return vec4(ground_relief_seen(xz, 3.0f * c.x) + ground_relief_blurred(3.0f * c.x) + drifted_share(3.0f * xz),
+        return vec4(ground_relief_seen(xz, 3.0f * c.x) + ground_relief_blurred(3.0f * c.x) + drifted_cover(3.0f * xz, 0.1f * c.y),
                     level_ground(0.99f + 0.01f * a.z) + ground_tone(7.0f * xz, 300.0f * b.w * b.w, 2.0f * c.y).y,
                     level_share(a.w, b.x) + ground_moisture(3.0f * xz, 40.0f * c.z * c.z) + wide_relief_m(xz, 4.0f * c.w),
                     frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);

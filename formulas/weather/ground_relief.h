@@ -53,6 +53,13 @@ SHARED_FN float drifted_share(vec2 xz)
     return 1.0f + 1.2f * far * (0.5f * wide + 0.32f * near + 0.18f * fine - 0.5f);
 }
 
+// Of what snow covers: where it is deep, even what little lies in a lee of the wind hides the ground. depth_m: of the weather.
+SHARED_FN float drifted_cover(vec2 xz, float depth_m)
+{
+    const float share = drifted_share(xz);
+    return mix(share, max(share, 1.0f), smooth_edge(0.01f, 0.04f, depth_m * share));
+}
+
 SHARED_END
 
 #endif

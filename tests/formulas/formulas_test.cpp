@@ -473,6 +473,22 @@ TEST(GroundRelief, WindSharesOutTheSnowOfWideGround)
     EXPECT_GT(std::sqrt(squares / count - mean * mean), 0.15);
 }
 
+// Deep snow hides the ground wherever the wind left some of it.
+TEST(GroundRelief, DeepSnowCoversWhatTheWindHasThinned)
+{
+    for (float x = -9000.0f; x < 9000.0f; x += 407.0f) {
+        const vec2 at(x, 700.0f);
+        float before = drifted_share(at);
+        EXPECT_EQ(drifted_cover(at, 0.0f), before);
+        for (const float deep_m : {0.01f, 0.03f, 0.06f, 0.11f}) {
+            const float cover = drifted_cover(at, deep_m);
+            EXPECT_GE(cover, before);
+            before = cover;
+        }
+        EXPECT_GE(before, 1.0f);
+    }
+}
+
 // Fresh snow swells, and is smooth where a hand is wide: most of its slope is of waves of half a metre.
 TEST(SnowRelief, IsSmoothAtTheWidthOfAHand)
 {

@@ -34,7 +34,7 @@ LocalWeather weather_everywhere(SurfaceInput at, bool asked)
     here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) * shares.flood;
     here.snow = 0.0;
     if (SNOW != 0u) {
-        here.snow = cover_of_share(frame.weather.snow_amount, open.snow * drifted_share(at.position.xz));
+        here.snow = cover_of_share(frame.weather.snow_amount, open.snow * drifted_cover(at.position.xz, frame.weather.snow_depth_m));
     }
     // Hoar is of the air: it grows where heat is lost to the sky, most of which is overhead.
     here.frost = frame.weather.frost * min(open.sky, 1.0);
@@ -63,7 +63,7 @@ void below_what_is_near(inout LocalWeather here, SurfaceInput at)
     const FallShares shares = fall_shares(open.rain);
     here.film *= shares.film;
     if (!here.volume) here.flood *= shares.flood;
-    if (SNOW != 0u) here.snow = cover_of_share(here.snow, open.snow * drifted_share(at.position.xz));
+    if (SNOW != 0u) here.snow = cover_of_share(here.snow, open.snow * drifted_cover(at.position.xz, frame.weather.snow_depth_m));
     here.frost *= min(open.sky, 1.0);
 }
 
