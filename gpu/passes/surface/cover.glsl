@@ -75,7 +75,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     // Deep snow knows no relief below it.
     const bool bodied = (SNOW & SNOW_BODY) != 0u && at.weather.a <= 0.0;
     const float over_m = SNOW != 0u && !bodied ? stands_over_m(at) : 0.0;
-    const SnowBody own_body = snow_body(at, over_m);
+    const SnowBody own_body = snow_body(at, over_m, here.open);
     const float body = own_body.share;
     const float amount = max(saturate(amount_raw), body);
     const vec3 smoothed = normalize(
