@@ -434,7 +434,7 @@ struct Light {
     int mask_channel = 0;    ///< of shadow masks, that its shadow is baked in: 1..3; 0: none
     std::int32_t node = kNoNode;  ///< of the rig, that carries it
     std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative
-    bool in_lantern = false;  ///< its shadows are those of what lies outside its lantern (scene/lanterns.h); `profile` has the rest
+    bool in_lantern = false;  ///< its shadows are those of what lies outside its lantern (scene/patches/lanterns.h); `profile` has the rest
 };
 
 /// How a lamp shines by direction, at most 1: a measured distribution (IES) over angles, or a picture

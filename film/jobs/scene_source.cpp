@@ -27,7 +27,7 @@
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
 #include "film/weather/film_by_name.h"
-#include "scene/lanterns.h"
+#include "scene/patches/lanterns.h"
 
 namespace petrichor::film {
 namespace {

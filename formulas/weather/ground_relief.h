@@ -57,7 +57,7 @@ SHARED_FN float drifted_share(vec2 xz)
 SHARED_FN float drifted_cover(vec2 xz, float depth_m)
 {
     const float share = drifted_share(xz);
-    return mix(share, max(share, 1.0f), clamp((depth_m * share - 0.01f) / 0.03f, 0.0f, 1.0f));
+    return share + clamp((depth_m * share - 0.01f) / 0.03f, 0.0f, 1.0f) * (max(share, 1.0f) - share);
 }
 
 SHARED_END

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "gpu/upload/emissive_lights.h"
-#include "scene/lanterns.h"
+#include "scene/patches/lanterns.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {

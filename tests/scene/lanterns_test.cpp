@@ -1,5 +1,5 @@
 // What stands around a lamp hides as much of it as of a ball that shines.
-#include "scene/lanterns.h"
+#include "scene/patches/lanterns.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "gpu/passes/lamp_shadows/lamp_shadows_io.h"
-#include "scene/lanterns.h"
+#include "scene/patches/lanterns.h"
 
 namespace petrichor::gpu {
 

@@ -5,7 +5,7 @@
 
 #define LAMP_MAP_SIZE 512
 #define LAMP_MAP_NEAR_M 0.05f  // what is nearer casts no shadow: it is part of the lamp
-#define LANTERN_HALF_M 0.35f   // .. or, of a lamp in a lantern, in its profile (scene/lanterns.h)
+#define LANTERN_HALF_M 0.35f   // .. or, of a lamp in a lantern, in its profile (scene/patches/lanterns.h)
 // A face covers a little more than its quarter turn, so that filters find texels beyond the edge.
 #define LAMP_MAP_COVER (1.0f - 6.0f / 512.0f)
 

@@ -1,4 +1,4 @@
-#include "scene/lanterns.h"
+#include "scene/patches/lanterns.h"
 
 #include <algorithm>
 #include <array>
