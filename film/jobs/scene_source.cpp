@@ -143,9 +143,14 @@ void load_sequence_scene(Sequence& sequence, int threads)
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), lamps.unmatched.begin(),
                                    lamps.unmatched.end());
     if (scenario.lights.lanterns && scenario.render.lamp_shadows > 0) {
-        const std::vector<std::string> lanterns = scene::shade_by_lanterns(sequence.scene);
+        std::vector<std::string> lanterns = scene::shade_by_lanterns(sequence.scene);
+        const std::string count = std::to_string(lanterns.size());
+        if (lanterns.size() > 6) {
+            lanterns.resize(6);
+            lanterns.push_back("...");
+        }
         if (!lanterns.empty())
-            sequence.notes.push_back("lamps in lanterns, whose parts shade softly: " + join_words(lanterns));
+            sequence.notes.push_back("lamps in lanterns, whose parts shade softly: " + count + " (" + join_words(lanterns) + ")");
     }
     std::vector<std::string> cookies;
     for (const SequenceVariant& variant : sequence.variants)

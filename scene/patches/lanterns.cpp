@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "formulas/codec/octahedral.h"
 #include "scene/patches/tracer.h"
@@ -23,7 +24,8 @@ constexpr int kPoints = 48;
 
 bool may_have_one(const Light& light)
 {
-    return light.kind == LightKind::Point && light.profile < 0 && light.node == kNoNode && light.length_m == 0.0f &&
+    const bool somewhere = glm::all(glm::lessThan(glm::abs(light.position_m), glm::vec3(1e6f)));  // NaN is nowhere
+    return somewhere && light.kind == LightKind::Point && light.profile < 0 && light.node == kNoNode && light.length_m == 0.0f &&
            (light.radius_m == 0.0f || light.radius_m >= kLeastRadius_m);
 }
 
@@ -177,8 +179,14 @@ private:
 std::vector<std::string> shade_by_lanterns(Scene& scene)
 {
     std::vector<Around> all;
-    for (std::size_t i = 0; i < scene.lights.size() && all.size() < kMost; ++i)
-        if (may_have_one(scene.lights[i])) all.push_back({i, {}, false});
+    std::size_t not_asked = 0;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        if (!may_have_one(scene.lights[i])) continue;
+        if (all.size() < kMost)
+            all.push_back({i, {}, false});
+        else
+            ++not_asked;
+    }
     std::vector<std::string> names;
     if (all.empty()) return names;
     gather(scene, all);
@@ -193,6 +201,9 @@ std::vector<std::string> shade_by_lanterns(Scene& scene)
         scene.light_profiles.push_back(std::move(*profile));
         names.push_back(light.name);
     }
+    if (!names.empty() && not_asked > 0)
+        scene.warnings.push_back("lanterns: what stands around " + std::to_string(not_asked) + " lamps behind the first " +
+                                 std::to_string(kMost) + " shades with hard edges");
     return names;
 }
 

@@ -22,7 +22,7 @@ inline constexpr float kLampItself_m = 0.05f;
 /// node, with something that moves nearby, and all behind the first 64. What glows, is blended or lets light
 /// through hides nothing. The same bits on every machine; 40 ms for 2000 triangles.
 ///
-/// Returns the names of those that have one.
+/// Returns the names of those that have one; that some were left out for their number is a warning of the scene.
 std::vector<std::string> shade_by_lanterns(Scene& scene);
 
 }  // namespace petrichor::scene

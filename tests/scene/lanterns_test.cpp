@@ -144,6 +144,18 @@ TEST(Lanterns, LampsThatSayMoreAreLeftAsTheyAre)
     }
 }
 
+TEST(Lanterns, MoreThanAreLookedAtAreNamed)
+{
+    Scene scene = with_lamp();
+    add(scene, {-0.2f, 0.2f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f});
+    Light nowhere = scene.lights[0];
+    nowhere.position_m.x = std::nanf("");
+    scene.lights.push_back(nowhere);
+    scene.lights.resize(70, scene.lights[0]);
+    EXPECT_EQ(shade_by_lanterns(scene).size(), 64u);
+    EXPECT_THAT(scene.warnings, testing::ElementsAre(testing::HasSubstr("around 5 lamps behind the first 64")));
+}
+
 // A wall at the back: what lies behind it is dark, and the wall is told where it stands.
 TEST(Lanterns, AWallHidesItsSide)
 {
