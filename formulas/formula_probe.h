@@ -22,6 +22,7 @@
 #include "formulas/light/iridescence.h"
 #include "formulas/light/layers.h"
 #include "formulas/light/light_map.h"
+#include "formulas/light/light_profile.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/near_light.h"
 #include "formulas/light/occlusion_points.h"
@@ -55,7 +56,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 64;
+SHARED_CONST int kProbeKinds = 65;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -581,6 +582,14 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const Lobe second = make_lobe(normalize(n + 0.3f * v), v, splat3(0.0f), first.f0, 0.05f + 0.9f * c.z);
         const vec3 lit = shade_two_lobes(first, second, c.w, normalize(n + 0.1f * l), l);
         return vec4(lit.x, lit.y, lit.z, joined_roughness(a.x, a.y, c.w));
+    }
+    if (kind == 64) {
+        const vec3 at = probe_direction(a.x, 0.02f + 0.96f * a.y);
+        const vec2 photometry = photometry_place(vec3(at.z, at.x, at.y));  // no turn of a whole round
+        const vec2 cookie = cookie_place(normalize(vec3(b.x - 0.5f, b.y - 0.5f, 0.5f)), 0.1f + 0.8f * a.z);
+        const vec2 lantern = lantern_place(at);
+        const float seen = lantern_seen(vec2(c.x, 0.1f + 0.2f * c.y), at, 0.6f * c.z);
+        return vec4(photometry.x + cookie.x, photometry.y + cookie.y, lantern.x + lantern.y, seen) / vec4(100.0f, 100.0f, 100.0f, 1.0f);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -60,7 +60,7 @@ std::vector<float> lamp_values(const SceneView& view, const MapConditions&)
     const Patches& p = view.patches();
     std::vector<glm::vec3> lux(p.count, glm::vec3(0.0f));
     for (const scene::Light& light : view.scene->lights) {
-        if (light.kind != scene::LightKind::Directional) scene::add_lamp(p, light, {}, lux);
+        if (light.kind != scene::LightKind::Directional) scene::add_lamp(p, light, view.scene->light_profiles, {}, lux);
     }
     std::vector<float> values;
     for (const glm::vec3& l : lux) values.push_back(glm::dot(l, glm::vec3(0.2126f, 0.7152f, 0.0722f)));

@@ -32,6 +32,7 @@ const Key kKeys[] = {
     {"surface.heat_roughness_share",
      [](PhysicalParams& p) { return &p.surface.heat_roughness_share; }},
     {"surface.salt_loss_1_h", [](PhysicalParams& p) { return &p.surface.salt_loss_1_h; }},
+    {"surface.leaf_width_m", [](PhysicalParams& p) { return &p.surface.leaf_width_m; }},
     {"surface.film_capacity_kg_m2",
      [](PhysicalParams& p) { return &p.surface.film_capacity_kg_m2; }},
     {"surface.film_rate_1_s", [](PhysicalParams& p) { return &p.surface.film_rate_1_s; }},

@@ -156,10 +156,10 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
     std::vector<scene::Light> lamps = scene.lights;
     std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission;
     for (std::size_t i = 0; i < lamps.size(); ++i)
-        scene::add_lamp(p, lamps[i], patches->lamp_reach[i], direct);
+        scene::add_lamp(p, lamps[i], scene.light_profiles, patches->lamp_reach[i], direct);
     if (sunny) {
         lamps.push_back(sun_of(conditions));
-        scene::add_lamp(p, lamps.back(), {}, direct);
+        scene::add_lamp(p, lamps.back(), {}, {}, direct);
     }
     for (const glm::vec3& radiance : look.emission) emission.push_back(radiance * shared::kPi);
     const std::vector<glm::vec3> sky = overcast_sky(conditions.sky_lux);
@@ -175,7 +175,7 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
 
     const scene::Triangles triangles(scene, alpha_images(scene, notes));
     const scene::Tracer tracer(triangles);
-    scene::BakeLight light{lit.radiosity, sky, lamps};
+    scene::BakeLight light{lit.radiosity, sky, lamps, scene.light_profiles};
     if (conditions.indirect) light.lamps = {};
     light.masked = masked.lamps;
     scene::LightMaps baked = scene::bake_light_maps(tracer, p, light, options);

@@ -365,7 +365,7 @@ std::vector<scene::NearHint> near_hints(const gpu::PatchScene& made, const std::
     for (std::size_t i = 0; i < lights.size(); ++i) {
         if (lights[i].kind == scene::LightKind::Directional) continue;
         lamps = true;
-        scene::add_lamp(p, lights[i], made.lamp_reach[i], direct);
+        scene::add_lamp(p, lights[i], {}, made.lamp_reach[i], direct);
     }
     const std::vector<glm::vec3> none(p.count, glm::vec3(0.0f));
     const auto under = [&](const std::vector<glm::vec3>& falls, float sky_light) {
@@ -423,6 +423,7 @@ PreparedPatches prepare_lights(const scene::Scene& scene, SceneTransport transpo
     made->patches = std::move(transport.patches);
     made->surfaces = std::move(transport.surfaces);
     made->materials = scene.materials;
+    made->light_profiles = scene.light_profiles;
     notes.insert(notes.end(), transport.notes.begin(), transport.notes.end());
     for (std::uint32_t i = 0; i < made->patches.count; ++i) {
         if (in_a_lantern(scene, made->patches.position_m[i])) made->surfaces[i].emission = glm::vec3(0.0f);

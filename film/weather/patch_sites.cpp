@@ -25,6 +25,7 @@ constexpr double kNoHollow_mm = 0.01;  // none, for a model that wants some
 // Walls of houses by what they are made of, and half of what stands free.
 constexpr double kBoard_w_m_k = 0.3, kBoard_m = 0.1, kMasonry_m = 0.3, kSlab_m = 0.1;
 constexpr double kLeaves_m = 0.02;  // of leaves and blades, and the water in them
+constexpr double kLeafWidth_m = 0.05;
 constexpr float kIntoHouse_m = 0.5f, kAcrossHouse_m = 60.0f, kSlabMost_m = 1.2f;
 constexpr float kRoomLeast_m = 1.5f, kDoor_m = 2.0f;
 constexpr float kBlade_m = 0.03f;      // what is narrower stands free among its like
@@ -160,6 +161,7 @@ std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const sc
                      : solid                                                       ? kMasonry_m
                                                                                    : kBoard_m,
                      kind.surface.conductivity_w_m_k, kind.surface.heat_capacity_j_m3_k}};
+            if (is_foliage(scene.materials[m])) kind.surface.leaf_width_m = kLeafWidth_m;
             kind.room_behind = form == GroundForm::House;
             kind.surface.open_below = form == GroundForm::Slab;
             kinds.push_back(std::move(kind));

@@ -27,6 +27,7 @@ struct PatchScene {
     /// A light of Scene::lights each: share of 255 of a leaf that it reaches; empty where it reaches
     /// all that it faces (directional lights go by the visibility bits).
     std::vector<std::vector<std::uint8_t>> lamp_reach;
+    std::vector<scene::LightProfile> light_profiles;  ///< Scene::light_profiles, that its lamps shine by
     std::vector<scene::TracedProbe> probes;  ///< what mirrors see of the scene; at most kMostProbes
 };
 

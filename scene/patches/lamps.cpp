@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "formulas/light/brdf.h"
+#include "scene/light_profile.h"
 #include "scene/light_shape.h"
 #include "scene/patches/radiosity.h"
 
 namespace petrichor::scene {
 
-glm::vec3 lamp_irradiance(const Light& light, glm::vec3 position_m, glm::vec3 normal, float least_m)
+glm::vec3 lamp_irradiance(const Light& light, std::span<const LightProfile> profiles, glm::vec3 position_m,
+                          glm::vec3 normal, float least_m)
 {
     const glm::vec3 color = light.color * light_candela(light);
     if (light.kind == LightKind::Directional)
@@ -26,7 +28,8 @@ glm::vec3 lamp_irradiance(const Light& light, glm::vec3 position_m, glm::vec3 no
                                             std::cos(light.inner_cone_rad),
                                             std::cos(light.outer_cone_rad));
     }
-    return color * (cosine * falloff);
+    if (!(falloff > 0.0f)) return glm::vec3(0.0f);
+    return color * profile_towards(light, profiles, -towards, distance) * (cosine * falloff);
 }
 
 bool lamp_seen(const Tracer& tracer, const Light& light, glm::vec3 from)
@@ -43,8 +46,8 @@ bool lamp_seen(const Tracer& tracer, const Light& light, glm::vec3 from)
            !tracer.blocked({from, way / length, length - kLanternRadius_m});
 }
 
-void add_lamp(const Patches& patches, const Light& light, std::span<const std::uint8_t> reach,
-              std::vector<glm::vec3>& direct)
+void add_lamp(const Patches& patches, const Light& light, std::span<const LightProfile> profiles,
+              std::span<const std::uint8_t> reach, std::vector<glm::vec3>& direct)
 {
     if (light.kind == LightKind::Directional) {
         add_sun(patches, -light.direction, light.color * light_candela(light), direct);
@@ -54,7 +57,7 @@ void add_lamp(const Patches& patches, const Light& light, std::span<const std::u
         const float seen = reach.empty() ? 1.0f : static_cast<float>(reach[i]) / 255.0f;
         if (seen <= 0.0f) continue;
         // A patch is no point: nearer than its own size its light does not grow.
-        direct[i] += lamp_irradiance(light, patches.position_m[i], patches.normal[i],
+        direct[i] += lamp_irradiance(light, profiles, patches.position_m[i], patches.normal[i],
                                      0.5f * std::sqrt(patches.area_m2[i])) *
                      seen;
     }

@@ -115,7 +115,7 @@ public:
         if (!light_.masked.empty()) gathered.seen = seen(x, n, from);
         gathered.lux = sum / static_cast<float>(found);
         for (const Light& lamp : light_.lamps) {
-            const glm::vec3 lux = lamp_irradiance(lamp, x, n);
+            const glm::vec3 lux = lamp_irradiance(lamp, light_.profiles, x, n);
             if (lux.x + lux.y + lux.z > 0.0f && lamp_seen(tracer_, lamp, from)) gathered.lux += lux;
         }
         return gathered;
@@ -128,7 +128,7 @@ private:
         std::array<float, 4> most{};
         glm::vec4 mask(1.0f);
         for (const Light& lamp : light_.masked) {
-            const glm::vec3 lux = lamp_irradiance(lamp, x, n);
+            const glm::vec3 lux = lamp_irradiance(lamp, light_.profiles, x, n);
             const float sum = lux.x + lux.y + lux.z;
             const auto channel = static_cast<std::size_t>(lamp.mask_channel);
             mask[lamp.mask_channel] = 0.0f;

@@ -18,6 +18,7 @@ struct BakeLight {
     std::span<const glm::vec3> radiosity;  ///< of leaves (PatchIrradiance::radiosity): what rays bring
     std::span<const glm::vec3> sky;        ///< pi x mean radiance of a sky bin, kSkyBins entries
     std::span<const Light> lamps;          ///< whose light falls on surfaces directly, with its shadow
+    std::span<const LightProfile> profiles = {};  ///< Scene::light_profiles, that lamps shine by
     /// If any: beside the light, how much of these is seen. Light::mask_channel is where: 0 the sun's red, 1
     /// green, 2 blue, 3 alpha. Of several in one channel the one that gives most light there.
     std::span<const Light> masked = {};

@@ -57,8 +57,8 @@ void add_sun(const NearLinks& near, glm::vec3 towards_sun, glm::vec3 illuminance
     }
 }
 
-void add_lamp(const NearLinks& near, const Light& light, std::span<const std::uint8_t> reach,
-              std::vector<glm::vec3>& direct)
+void add_lamp(const NearLinks& near, const Light& light, std::span<const LightProfile> profiles,
+              std::span<const std::uint8_t> reach, std::vector<glm::vec3>& direct)
 {
     if (light.kind == LightKind::Directional) {
         add_sun(near, -light.direction, light.color * light_candela(light), direct);
@@ -74,7 +74,7 @@ void add_lamp(const NearLinks& near, const Light& light, std::span<const std::ui
         const float least_m = 0.5f * std::sqrt(glm::dot(d, d));
         for (std::size_t k = 0; k < NearLinks::kSamples; ++k) {
             if ((bits >> k & 1u) != 0u)
-                direct[s] += lamp_irradiance(light, points[k], near.normal[s], least_m) * kShare;
+                direct[s] += lamp_irradiance(light, profiles, points[k], near.normal[s], least_m) * kShare;
         }
     }
 }

@@ -88,8 +88,8 @@ std::vector<std::uint8_t> trace_near_lamp(const NearLinks& near, const Tracer& t
 /// reaches. reach: trace_near_lamp; empty: all. direct: one number a source.
 void add_sun(const NearLinks& near, glm::vec3 towards_sun, glm::vec3 illuminance,
              std::vector<glm::vec3>& direct);
-void add_lamp(const NearLinks& near, const Light& light, std::span<const std::uint8_t> reach,
-              std::vector<glm::vec3>& direct);
+void add_lamp(const NearLinks& near, const Light& light, std::span<const LightProfile> profiles,
+              std::span<const std::uint8_t> reach, std::vector<glm::vec3>& direct);
 
 }  // namespace petrichor::scene
 

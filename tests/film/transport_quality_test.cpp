@@ -379,7 +379,7 @@ PatchWorld::PatchWorld(const World& world)
     }
     scene::add_sun(p, c.towards_sun, c.sun, direct);
     for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l)
-        scene::add_lamp(p, street.scene.lights[l], street.patches->lamp_reach[l], direct);
+        scene::add_lamp(p, street.scene.lights[l], street.scene.light_profiles, street.patches->lamp_reach[l], direct);
     const scene::NearLinks& near = street.patches->near;
     std::vector<glm::vec3> near_direct(near.sources(), glm::vec3(0.0f)), near_albedo;
     for (std::size_t s = 0; s < near.sources(); ++s) {
@@ -388,7 +388,7 @@ PatchWorld::PatchWorld(const World& world)
     }
     scene::add_sun(near, c.towards_sun, c.sun, near_direct);
     for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l)
-        scene::add_lamp(near, street.scene.lights[l], street.patches->near_reach[l], near_direct);
+        scene::add_lamp(near, street.scene.lights[l], street.scene.light_profiles, street.patches->near_reach[l], near_direct);
     scene::Relight input;
     input.albedo = albedo;
     input.direct = direct;

@@ -262,7 +262,7 @@ TEST(NearLight, ALampIsSeenPointByPoint)
     lamp.range_m = 20.0f;
     const auto reach = trace_near_lamp(cut.near, cut.tracer, 0.35f, lamp.position_m, lamp.range_m);
     std::vector<glm::vec3> direct(cut.near.sources(), glm::vec3(0.0f));
-    add_lamp(cut.near, lamp, reach, direct);
+    add_lamp(cut.near, lamp, {}, reach, direct);
     int whole = 0, half = 0, none = 0;
     for (std::size_t s = 0; s < cut.near.sources(); ++s) {
         const glm::vec3 n = cut.near.normal[s], middle = near_middle(cut.near, s);
@@ -274,7 +274,7 @@ TEST(NearLight, ALampIsSeenPointByPoint)
             if (std::abs(x.z) < 0.005f) continue;
             const bool lit = x.z < 0.0f;
             EXPECT_EQ((reach[s] >> k & 1) != 0, lit) << x.x << " " << x.z;
-            if (lit) expected += 0.25f * lamp_irradiance(lamp, x, n);
+            if (lit) expected += 0.25f * lamp_irradiance(lamp, {}, x, n);
         }
         EXPECT_NEAR(direct[s].x, expected.x, 1e-3f * expected.x + 1e-6f);
         whole += reach[s] == NearLinks::kAllLit ? 1 : 0;

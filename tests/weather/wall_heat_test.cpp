@@ -260,5 +260,47 @@ TEST(WallHeat, HoarGrowsAtTheRateOfTheExchangeAndIsGoneWhenTheBalanceHasMeltedIt
     RecordProperty("hours_of_model", std::to_string(gone));
 }
 
+// A leaf gives its heat to the air on both sides: what reaches it equals what leaves it, and so it stays near the air.
+TEST(LeafHeat, BothSidesOfALeafGiveItsHeatToTheAir)
+{
+    const GroundLayer thin{0.02, 0.5, 2.0e6};
+    const double warm_w_m2 = 900.0;  // of the longwave, in place of a sun
+    ForcingTable table = thaw(0, 30, 50.0);
+    for (double& longwave : table[Field::Longwave]) longwave = warm_w_m2;
+    double over_air_k[2] = {};
+    for (const double width_m : {0.0, 0.05}) {
+        PatchSet set = wall(thin, false, 1.0);
+        set.kinds[0].surface.leaf_width_m = width_m;
+        set.patches[0].normal = {0, 1, 0};
+        set.patches[0].visible = open_sky(set.patches[0].normal);
+        PatchParams params;
+        params.model.exchange.stability = Stability::Neutral;
+        PatchWeather patches(table, set, params, table.time_us.front());
+        patches.go_to(table.time_us[28]);
+        const PatchState s = patches.state(0);
+        const double leaf_k = s.cell.surface_temp_c + kZeroCelsiusK, air_k = kWarmAir_c + kZeroCelsiusK;
+        const double q_air = specific_humidity(vapour_pressure_pa(air_k, 50.0), kPressure_pa);
+        const Surface& surface = set.kinds[0].surface;
+        const double level = air_density_kg_m3(air_k, q_air, kPressure_pa) *
+                             neutral_exchange(10.0, 2.0, surface.roughness_m) * kWind_m_s;
+        const double given = surface.emissivity * (s.longwave_w_m2 - kStefanBoltzmann * std::pow(leaf_k, 4.0));
+        const double behind = 1.0 / (0.1 + thin.thickness_m / thin.conductivity_w_m_k);
+        const double left = (leaf_k - air_k) * ((level + leaf_exchange(width_m, kWind_m_s)) * kAirHeatCapacity + behind);
+        EXPECT_NEAR(left, given, 0.01 * given) << width_m;
+        over_air_k[width_m > 0.0 ? 1 : 0] = leaf_k - air_k;
+    }
+    EXPECT_LT(over_air_k[1], 0.6 * over_air_k[0]);
+    EXPECT_LT(over_air_k[1], 12.0);
+    EXPECT_GT(over_air_k[1], 2.0);
+}
+
+TEST(LeafHeat, IsThatOfAPlateInAThirdOfTheWind)
+{
+    // 0.135 mol m-2 s-1 sqrt(u / d), 1.4 of it outdoors, two sides: u 1 m/s, d 5 cm.
+    EXPECT_NEAR(leaf_exchange(0.05, 3.0), 2.0 * 0.189 * 0.02897 * std::sqrt(20.0), 1e-9);
+    EXPECT_EQ(leaf_exchange(0.0, 3.0), 0.0);
+    EXPECT_GT(leaf_exchange(0.01, 3.0), leaf_exchange(0.05, 3.0)) << "small leaves are cooler";
+}
+
 }  // namespace
 }  // namespace petrichor::weather

@@ -38,4 +38,10 @@ double wall_convection_w_m2_k(double difference_k)
     return detail::wall_convection_of(difference_k) * kAirHeatCapacity;
 }
 
+double leaf_exchange(double width_m, double wind_m_s)
+{
+    constexpr double kSide_mol = 0.135 * 1.4, kAir_kg_mol = 0.02897, kBetweenLeaves = 1.0 / 3.0;
+    return width_m > 0.0 ? 2.0 * kSide_mol * kAir_kg_mol * std::sqrt(kBetweenLeaves * wind_m_s / width_m) : 0.0;
+}
+
 }  // namespace petrichor::weather

@@ -39,6 +39,14 @@ double convection_coefficient(double wind_height_m, double roughness_m, double h
 inline constexpr double kWallConvection_w_m2 = 1.31;
 double wall_convection_w_m2_k(double difference_k);
 
+/// Of leaves and blades: a plate across the wind gives heat and vapour to the air on both sides, kg m-2 s-1 (times the heat
+/// capacity of air: W m-2 K-1). 0 without a width.
+///   width_m   along the wind
+///   wind_m_s  measured in the open: a third of it blows between leaves
+///   source  Campbell & Norman 1998, 7.30 (forced convection, laminar, 1.4 for the gusts outdoors); the third is a
+///           round number between crowns (0.3 to 0.5) and meadows (0.1 to 0.3)
+double leaf_exchange(double width_m, double wind_m_s);
+
 }  // namespace petrichor::weather
 
 #endif

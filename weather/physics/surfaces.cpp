@@ -183,6 +183,8 @@ void check_surface(const Surface& s)
             "heat_roughness_share", s.heat_roughness_share, "in 1e-4..10");
     require(s.salt_loss_1_h >= 0.0 && s.salt_loss_1_h < 1e3, s, "salt_loss_1_h", s.salt_loss_1_h,
             "0 or more");
+    require(s.leaf_width_m == 0.0 || (s.leaf_width_m >= 1e-4 && s.leaf_width_m <= 1.0), s, "leaf_width_m", s.leaf_width_m,
+            "0 or in 1e-4..1");
     require(s.traffic_heat_w_m2 >= 0.0 && s.traffic_heat_w_m2 <= 1e3, s, "traffic_heat_w_m2",
             s.traffic_heat_w_m2, "in 0..1000");
     require(s.traffic_wind_m_s >= 0.0 && s.traffic_wind_m_s < 50.0, s, "traffic_wind_m_s",

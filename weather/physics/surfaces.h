@@ -38,6 +38,9 @@ struct Surface {
     double snow_clearing_1_h = 0.0;
     double traffic_heat_w_m2 = 0.0;  ///< of tyres, engines and what lies below; METRo takes 10
     double salt_loss_1_h = 0.0;      ///< salt that wheels throw off, wet or dry; 0 without traffic
+    /// > 0: leaves and blades of that width, which give heat and vapour to the air on both sides besides, as plates
+    /// in the wind of their place (leaf_exchange); 0: none.
+    double leaf_width_m = 0.0;
 };
 
 /// Presets: asphalt, concrete, paving_stones, cobblestone, brick, soil, sand, gravel, grass,

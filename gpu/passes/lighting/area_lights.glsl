@@ -3,6 +3,8 @@
 #ifndef PETRICHOR_AREA_LIGHTS_GLSL
 #define PETRICHOR_AREA_LIGHTS_GLSL
 
+#include "formulas/light/light_profile.h"
+
 // Something answers to light from behind.
 const bool BLEEDS = (LAYERS & (LAYERS_TRANSLUCENT | LAYERS_SKIN)) != 0u;
 
@@ -91,41 +93,22 @@ vec3 profile_texels(int first, vec2 place, bool wraps)
     return mix(a, b, part.y);
 }
 
-// What is seen of a lamp past its lantern; within it what lies before the lantern's parts sees all.
-float lantern_share(int first, vec3 away, float far_m)
-{
-    const vec2 place = (octahedral_encode(away) * 0.5 + 0.5) * float(LIGHT_PROFILE_SIDE) - 0.5;
-    const vec2 seen = profile_texels(first, clamp(place, vec2(0.0), vec2(float(LIGHT_PROFILE_SIDE) - 1.001)), false).rg;
-    const float outside =
-        saturate(far_m * max(abs(away.x), max(abs(away.y), abs(away.z))) * (5.0 / LANTERN_HALF_M) - 4.5);
-    return mix(far_m < 1.03 * seen.y + 0.005 ? 1.0 : seen.x, seen.x, outside);
-}
-
 // How a lamp shines that way, of its profile; `away` points from the lamp, so many metres.
 vec3 light_profile(LightRow light, vec3 away, float far_m)
 {
     const float number = light.size.w;
     const int first = max(int(number), 0) * LIGHT_PROFILE_SIDE * LIGHT_PROFILE_SIDE;
     vec3 told = vec3(1.0);
-    if ((WAYS & LIGHTS_LANTERN) != 0u) told = vec3(in_lantern(light) ? lantern_share(first, away, far_m) : 1.0);
+    if ((WAYS & LIGHTS_LANTERN) != 0u && in_lantern(light))
+        told = vec3(lantern_seen(profile_texels(first, lantern_place(away), false).rg, away, far_m));
     if ((WAYS & LIGHTS_PROFILE) == 0u || number < 0.0 || in_lantern(light)) return told;
     const vec4 axis = light.axis;
     const vec3 up = light.across.xyz;
     const vec3 right = cross(axis.xyz, up);
     const vec3 at = vec3(dot(away, right), dot(away, up), dot(away, axis.xyz));
-    vec2 place;
     const bool picture = texelFetch(light_profiles, first).w > 0.5;
-    if (picture) {
-        const float outer = light.color.w;
-        const float half_m = sqrt(max(1.0 - outer * outer, 0.0)) / max(outer, 1.0e-3);
-        if (at.z <= 0.0) return vec3(0.0);
-        place = (vec2(at.x, -at.y) / (at.z * half_m) * 0.5 + 0.5) * float(LIGHT_PROFILE_SIDE - 1);
-    } else {
-        const float turn = atan(at.x, at.y) * (0.5 / kPi);
-        place = vec2((turn - floor(turn)) * float(LIGHT_PROFILE_SIDE),
-                     arc_cosine(at.z) / kPi * float(LIGHT_PROFILE_SIDE - 1));
-    }
-    return profile_texels(first, clamp(place, vec2(0.0), vec2(float(LIGHT_PROFILE_SIDE) - 0.001)), !picture);
+    if (picture && at.z <= 0.0) return vec3(0.0);
+    return profile_texels(first, picture ? cookie_place(at, light.color.w) : photometry_place(at), !picture);
 }
 
 // The same surface without its highlight.

@@ -193,14 +193,14 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
         if (light.kind != LightKind::Directional) light.intensity *= frame.scene_light_scale;
         std::span<const std::uint8_t> reach;
         if (i < scene_->lamp_reach.size()) reach = scene_->lamp_reach[i];
-        scene::add_lamp(p, light, reach, direct);
+        scene::add_lamp(p, light, scene_->light_profiles, reach, direct);
         std::span<const std::uint8_t> near_reach;
         if (i < scene_->near_reach.size()) near_reach = scene_->near_reach[i];
-        scene::add_lamp(scene_->near, light, near_reach, near_direct);
+        scene::add_lamp(scene_->near, light, scene_->light_profiles, near_reach, near_direct);
     }
     for (const Light& light : frame.extra_lights) {
-        scene::add_lamp(p, light, {}, direct);
-        scene::add_lamp(scene_->near, light, {}, near_direct);
+        scene::add_lamp(p, light, {}, {}, direct);
+        scene::add_lamp(scene_->near, light, {}, {}, near_direct);
     }
     float bright = 0.0f, area = 0.0f;
     for (std::uint32_t i = 0; i < p.count; ++i) {

@@ -85,6 +85,7 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
             k.log_temp_height_10 - (log_z0 + (1.0 - cover) * k.heat_roughness));
     }
     p.exchange = w.density * neutral * w.wind;
+    p.of_leaves = k.leaf_exchange > 0.0 ? (1.0 - cover) * k.leaf_exchange * square_root(w.wind) : zero;
     p.richardson_k = richardson_per_k_of(w.per_air_wind2, k.wind_height_m) * w.gravity_across;
     p.upright = w.upright;
     p.convection = cover * (k.convection_snow - k.convection_bare) + k.convection_bare;

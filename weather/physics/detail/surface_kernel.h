@@ -56,6 +56,7 @@ struct SurfacePoint {
     Real q_air;
     Real pressure;
     Real exchange;      // rho * CHn * U, kg m-2 s-1
+    Real of_leaves;     // what leaves add, whatever the air's stability
     Real richardson_k;  // g zU / (Ta U^2), 1/K; g across the surface
     Real upright;       // 0 of what lies level, 1 of a wall
     Real convection;    // of stability_factor_of
@@ -144,11 +145,11 @@ template <class Real, class Mask, class Wetness>
 PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask, Wetness>& p,
                                   const ExchangeParams& params, const Real& surface_c)
 {
-    if (params.stability == Stability::Neutral) return p.exchange;
+    if (params.stability == Stability::Neutral) return p.exchange + p.of_leaves;
     Real ri = p.richardson_k * (p.air_c - surface_c);
     if (params.stability == Stability::LouisCapped) ri = smaller(ri, Real(params.max_richardson));
     const Real level =
-        p.exchange * smaller(stability_factor_of(ri, p.convection), Real(params.max_unstable));
+        p.exchange * smaller(stability_factor_of(ri, p.convection), Real(params.max_unstable)) + p.of_leaves;
     if (!any(p.upright > 0.0)) return level;
     return level + p.upright * wall_convection_of(p.air_c - surface_c);
 }

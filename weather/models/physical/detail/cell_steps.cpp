@@ -236,6 +236,7 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
     k.neutral_bare =
         neutral_exchange_of(k.log_wind_height - k.log_roughness,
                             k.log_temp_height_10 - (k.log_roughness + k.heat_roughness));
+    k.leaf_exchange = leaf_exchange(s.leaf_width_m, 1.0);
     k.convection_bare =
         convection_of(k.log_wind_height - k.log_roughness, -logarithm(s.heat_roughness_share));
     k.convection_snow =
