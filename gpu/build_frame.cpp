@@ -195,6 +195,26 @@ std::size_t rounded_falls(std::size_t count)
 }
 static_assert((SKY_DIRECTIONS + 1) / 3 * 3 + 1 == SKY_DIRECTIONS);
 
+// .. and a renderer that has had rain along four goes on with those pipelines when the wind drops: one look-up more costs
+// less than to make them anew, and what falls by no share changes no bit.
+std::uint32_t made_for_falls(std::size_t count, std::uint32_t& before)
+{
+    const auto wanted = static_cast<std::uint32_t>(rounded_falls(count));
+    const std::uint32_t made = wanted == 3 && before == 4 ? 4 : wanted;
+    if (made > 0) before = made;  // a dry picture in between does not count
+    return made;
+}
+
+// The weather that pipelines of surfaces are made for. They know of frost wherever they know of snow, and of snow where
+// some has begun to gather below frost: for two look-ups more a film through a winter asks for a third of them.
+VisibleWeather made_for(const VisibleWeather& weather, const Frame& frame)
+{
+    VisibleWeather made = weather;
+    made.snow = weather.snow || (weather.frost && frame.weather.snow_depth_m > 0.0f);
+    made.frost = weather.frost || made.snow;
+    return made;
+}
+
 shared::FallConstants fall_constants(const DepthView& view, const glm::vec3& from, const Fall& fall)
 {
     // A shelter does not shelter itself: a point is lifted by a texel and a bit along its normal, by most of one
@@ -237,7 +257,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
             glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
     }
     std::vector<Fall> falls = falls_of(frame, weather);
-    if (!falls.empty()) falls.resize(rounded_falls(falls.size()), {falls.back().direction, 0.0f, 0.0f});
+    if (!falls.empty()) falls.resize(weather.falls, {falls.back().direction, 0.0f, 0.0f});
     int k = 0;
     for (const Fall& fall : falls) {
         const int i = fall.direction;
@@ -451,7 +471,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     add_depth_maps(graph, frame, sun, r, weathered, plan);
     std::vector<int> directions;
     for (const Fall& fall : falls_of(frame, weather)) directions.push_back(fall.direction);
-    weather.falls = static_cast<std::uint32_t>(rounded_falls(directions.size()));
+    weather.falls = made_for_falls(directions.size(), *r.falls_before);
+    const VisibleWeather made = made_for(weather, frame);
     if (settings.shelter && r.depth_maps->sky_valid) add_depth_quads(graph, *r.depth_maps, directions);
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, *r.triangles, r.lights->shadowed);
@@ -533,14 +554,14 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                                    r.resolve->asked.get(), constants);
             }
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
-                                *r.depth_maps, *r.place, constants, weather, listed);
+                                *r.depth_maps, *r.place, constants, made, listed);
         } else {
             add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place,
-                        constants, c.world_to_clip, c.camera_m, weather, solid, nullptr, seen);
+                        constants, c.world_to_clip, c.camera_m, made, solid, nullptr, seen);
         }
         if (r.decals && decals_in_view(*r.scene, c.world_to_clip)) {
             add_decals(graph, *r.targets, *r.decals, *r.scene, *r.surface_maps, *r.depth_maps,
-                       *r.place, constants, c.world_to_clip, weather);
+                       *r.place, constants, c.world_to_clip, made);
         }
         const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);
         add_gbuffer_rows(graph, *r.targets, parts);
@@ -587,7 +608,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);
-            add_layers(graph, r, constants, c, weather, variant, layers, needed > layers);
+            add_layers(graph, r, constants, c, made, variant, layers, needed > layers);
         }
     }
     if (range.end < static_cast<std::uint32_t>(settings.samples)) return graph;

@@ -48,6 +48,7 @@ struct FrameResources {
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample
     VkDeviceSize constants_stride = 0;
+    std::uint32_t* falls_before = nullptr;  ///< directions that the last pipelines of rain or snow were made for; replaced
     bool own_lighting = false;  ///< the scene has lighting models that are not built in
 };
 

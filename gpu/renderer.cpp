@@ -360,6 +360,7 @@ struct Renderer::Impl {
     std::unique_ptr<GpuScene> scene;
     std::unique_ptr<OwnMoves> own_moves;  // null: nothing is moved by them
     std::unique_ptr<SnowBody> snow;
+    std::uint32_t falls_before = 0;
     bool own_lighting = false;
     std::string graph_text;
 };
@@ -524,6 +525,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.materials = std::any_of(aov_rows.begin(), aov_rows.end(), needs_materials);
     resources.constants = constants.get();
     resources.constants_stride = constants_stride;
+    resources.falls_before = &falls_before;
     resources.own_lighting = own_lighting;
     for (const SampleRange& range : sample_ranges(frame, *scene)) {
         if (range.first > 0) {  // what moves is elsewhere

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gpu/frame/frame_io.h"
+#include "gpu/passes/surface/snow_bits.h"
 #include "gpu/passes/surface/surface_draws_io.h"
 #include "gpu/passes/surface/surface_io.h"
 #include "gpu/upload/draw.h"
@@ -59,8 +60,6 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
         assert(colors.size() == SURFACE_LAYER_THROUGH);
         colors.emplace_back(*layer->through);
     }
-    const std::uint32_t tracks = (maps.track_area.width > 0 ? SNOW_TRACKS : 0u) |
-                                 (scene.overlaid() ? SNOW_BODY : 0u);
     graph.add(DrawPass{
         .name = layer ? "transparent" : "surface",
         .colors = std::move(colors),
@@ -69,7 +68,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
         .height = targets.height,
         .bindings = std::move(bindings),
         .record =
-            [=, &scene](PassContext& pass) {
+            [=, &scene, &maps](PassContext& pass) {
                 GraphicsDesc desc;
                 desc.vertex = "surface.vert";
                 desc.fragment = fragment;
@@ -137,7 +136,9 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_WATER,
                          weather.water ? scene.materials()[draw->material].water : 0u},
                         {SURFACE_SPEC_SNOW,
-                         weather.snow ? scene.materials()[draw->material].snow | tracks : 0u},
+                         weather.snow ? scene.materials()[draw->material].snow |
+                                            snow_bits(scene, maps, scene.materials()[draw->material])
+                                      : 0u},
                         {SURFACE_SPEC_FROST, weather.frost},
                         {SURFACE_SPEC_FALLS, weather.falls},
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
