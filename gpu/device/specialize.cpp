@@ -15,6 +15,8 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "gpu/device/by_value.h"
+#include "gpu/device/droppable.h"
+#include "gpu/device/small_functions.h"
 #endif
 
 namespace petrichor::gpu {
@@ -68,12 +70,15 @@ class Prepare : public Passes {
 public:
     Prepare()
     {
-        optimizer_.RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+        optimizer_.RegisterPass(spvtools::CreateInlineExhaustivePass())
+            .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+            .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
             .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
             .RegisterPass(spvtools::CreateScalarReplacementPass(0))
             .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
             .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
             .RegisterPass(spvtools::CreateSSARewritePass())
+            .RegisterPass(spvtools::CreateCCPPass())
             .RegisterPass(spvtools::CreateAggressiveDCEPass());
     }
 };
@@ -185,10 +190,12 @@ std::vector<std::uint32_t> made(const Passes& passes, std::span<const std::uint3
 std::vector<std::uint32_t> prepared(std::span<const std::uint32_t> code, const ContentCache& cache)
 {
     const Prepare prepare;
-    const auto make = [&] { return prepare.run(by_value(code)); };
+    const auto make = [&] {
+        return with_inlining(prepare.run(with_large_apart(with_droppable_shuffles(by_value(code)))));
+    };
     if (!cache.on()) return make();
     Hasher hasher;
-    hasher.add("prepared 2");
+    hasher.add("prepared 3");
     return made(prepare, code, hasher, cache, make);
 }
 
@@ -201,11 +208,11 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
     const CutDown cut_down(constants);
     const auto make = [&] {
         const std::vector<std::uint32_t> words = prepared(code, cache);
-        return words.empty() ? words : cut_down.run(words, true);
+        return words.empty() ? words : with_shuffles_again(cut_down.run(words, true));
     };
     if (!cache.on()) return make();
     Hasher hasher;
-    hasher.add("specialized 5");
+    hasher.add("specialized 6");
     for (const Specialization& constant : constants) {
         hasher.add_bytes(std::as_bytes(std::span(&constant, 1)));
     }

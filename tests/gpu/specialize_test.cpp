@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "gpu/device/by_value.h"
+#include "gpu/device/droppable.h"
 #include "gpu/device/shaders.h"
+#include "gpu/device/small_functions.h"
+#include "gpu/frame/frame_words_io.h"
 
 namespace petrichor::gpu {
 namespace {
@@ -85,13 +88,62 @@ TEST_F(Specialize, ArgumentsThatAreReadComeAsValues)
     EXPECT_EQ(by_value(values), values) << "nothing is left to do";
 }
 
+// Lanes hand each other every word of a frame's constants; a shader keeps those that it needs.
+TEST_F(Specialize, WordsThatNothingNeedsAreDropped)
+{
+    constexpr std::uint32_t kShuffle = 345, kExtract = 203;
+    const auto needed = [this](std::vector<Specialization> constants) {
+        constants.push_back({FRAME_SPEC_LANES, 8});
+        const auto words = specialized(lighting, constants);
+        EXPECT_EQ(count_of(words, kExtract), count_of(lighting, kExtract)) << "no driver sees the other form";
+        return count_of(words, kShuffle);
+    };
+    std::vector<Specialization> off;
+    for (std::uint32_t id = 0; id < 60; ++id) off.push_back({id, 0});
+    const int few = needed(off);
+    const int all = needed({});
+    EXPECT_GT(few, 0);
+    EXPECT_LT(few, FRAME_WORD_COUNT / 2);
+    EXPECT_GT(all, few);
+}
+
+TEST_F(Specialize, ShufflesComeBackAsTheyWere)
+{
+    constexpr std::uint32_t kShuffle = 345;
+    const auto droppable = with_droppable_shuffles(lighting);
+    const int of_numbers = count_of(droppable, kShuffle);  // those that are no words stay
+    EXPECT_GT(count_of(lighting, kShuffle), of_numbers);
+    EXPECT_EQ(count_of(with_shuffles_again(droppable), kShuffle), count_of(lighting, kShuffle));
+    EXPECT_EQ(with_droppable_shuffles(droppable), droppable) << "nothing is left to do";
+    const auto plain = embedded_shader("glare_up.comp");
+    EXPECT_TRUE(std::ranges::equal(with_droppable_shuffles(plain), plain));
+}
+
+TEST_F(Specialize, LargeFunctionsStayUntilConstantsAreKnown)
+{
+    const auto apart = [](std::span<const std::uint32_t> words) {
+        int count = 0;
+        for (std::size_t at = 5; at < words.size() && words[at] >> 16 > 0; at += words[at] >> 16)
+            count += (words[at] & 0xffffu) == kFunction && (words[at + 3] & 2u) != 0 ? 1 : 0;
+        return count;
+    };
+    const auto marked = with_large_apart(lighting);
+    EXPECT_EQ(apart(lighting), 0);
+    EXPECT_GT(apart(marked), 10);
+    EXPECT_LT(apart(marked), count_of(lighting, kFunction));
+    EXPECT_TRUE(std::ranges::equal(with_inlining(marked), lighting));
+}
+
 TEST_F(Specialize, WhatIsNoShaderStaysAsItIs)
 {
     const std::vector<std::uint32_t> noise(100, 0xdeadbeefu);
-    EXPECT_EQ(by_value(noise), noise);
-    EXPECT_TRUE(by_value({}).empty());
-    for (std::size_t size = 1; size < lighting.size(); size += lighting.size() / 97)
-        EXPECT_GE(by_value(lighting.first(size)).size(), size);
+    using Step = std::vector<std::uint32_t> (*)(std::span<const std::uint32_t>);
+    for (const Step step : {by_value, with_droppable_shuffles, with_shuffles_again, with_large_apart, with_inlining}) {
+        EXPECT_EQ(step(noise), noise);
+        EXPECT_TRUE(step({}).empty());
+        for (std::size_t size = 1; size < lighting.size(); size += lighting.size() / 97)
+            EXPECT_GE(step(lighting.first(size)).size(), size);
+    }
 }
 
 TEST_F(Specialize, ShadersThatCannotBeReadAreLeftToTheDriver)
