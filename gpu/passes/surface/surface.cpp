@@ -60,6 +60,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
         assert(colors.size() == SURFACE_LAYER_THROUGH);
         colors.emplace_back(*layer->through);
     }
+    const SnowBits snow(scene, maps);
     graph.add(DrawPass{
         .name = layer ? "transparent" : "surface",
         .colors = std::move(colors),
@@ -68,7 +69,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
         .height = targets.height,
         .bindings = std::move(bindings),
         .record =
-            [=, &scene, &maps](PassContext& pass) {
+            [=, &scene](PassContext& pass) {
                 GraphicsDesc desc;
                 desc.vertex = "surface.vert";
                 desc.fragment = fragment;
@@ -136,9 +137,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_WATER,
                          weather.water ? scene.materials()[draw->material].water : 0u},
                         {SURFACE_SPEC_SNOW,
-                         weather.snow ? scene.materials()[draw->material].snow |
-                                            snow_bits(scene, maps, scene.materials()[draw->material])
-                                      : 0u},
+                         weather.snow ? snow.of(scene.materials()[draw->material]) : 0u},
                         {SURFACE_SPEC_FROST, weather.frost},
                         {SURFACE_SPEC_FALLS, weather.falls},
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},

@@ -200,17 +200,14 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
         return any_emission && (material.glows || material.own_surface != 0);
     };
     const std::uint32_t lanes = targets.lanes;
-    std::vector<std::uint32_t> snow;
-    for (const GpuMaterial& material : scene.materials())
-        snow.push_back(weather.snow ? material.snow | snow_bits(scene, maps, material) : 0u);
-    const auto variant = [parts, lanes, weather, snow, shares, glows, &scene](std::uint32_t number, bool shedding) {
-        const GpuMaterial& material = scene.materials()[number];
+    const auto variant = [parts, lanes, weather, snow = SnowBits(scene, maps), shares,
+                          glows](const GpuMaterial& material, bool shedding) {
         const std::uint32_t water = material.water | (shedding && material.sheds ? WATER_STEEP : 0u);
         return std::vector<Specialization>{
             {SURFACE_SPEC_HOLES, 0},
             {SURFACE_SPEC_SLOTS, material.slots},
             {SURFACE_SPEC_WATER, weather.water ? water : 0u},
-            {SURFACE_SPEC_SNOW, snow[number]},
+            {SURFACE_SPEC_SNOW, weather.snow ? snow.of(material) : 0u},
             {SURFACE_SPEC_FROST, weather.frost},
             {SURFACE_SPEC_FALLS, weather.falls},
             {SURFACE_SPEC_PARALLAX, material.parallax},
@@ -245,7 +242,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
         const GpuMaterial& material = scene.materials()[m];
         for (const bool shedding : {false, true}) {
             if (!listed(m, shedding)) continue;
-            pass.pipelines.push_back({shader, variant(m, shedding),
+            pass.pipelines.push_back({shader, variant(material, shedding),
                                       {types_of(pass.bindings), types_of(material.bindings)}});
         }
     }
@@ -256,7 +253,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             for (const bool shedding : {false, true}) {
                 if (!listed(m, shedding)) continue;
                 const std::uint32_t number = 2 * m + (shedding ? 1 : 0);
-                list.bind(shader, variant(m, shedding), types_of(material.bindings));
+                list.bind(shader, variant(material, shedding), types_of(material.bindings));
                 list.bind_set1(material.bindings);
                 list.push(shared::SurfaceResolveParams{m, number, width});
                 list.dispatch_indirect(number);
