@@ -45,6 +45,7 @@
 #include "formulas/weather/ground_relief.h"
 #include "formulas/weather/ground_tone.h"
 #include "formulas/weather/gusts.h"
+#include "formulas/weather/land_relief.h"
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
@@ -55,7 +56,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 64;
+SHARED_CONST int kProbeKinds = 65;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -581,6 +582,14 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const Lobe second = make_lobe(normalize(n + 0.3f * v), v, splat3(0.0f), first.f0, 0.05f + 0.9f * c.z);
         const vec3 lit = shade_two_lobes(first, second, c.w, normalize(n + 0.1f * l), l);
         return vec4(lit.x, lit.y, lit.z, joined_roughness(a.x, a.y, c.w));
+    }
+    if (kind == 64) {
+        const vec3 at = vec3(400.0f * a.x - 200.0f, 90.0f * a.y, 400.0f * a.z - 200.0f);
+        const float width_m = 4.0f * b.w * b.w;
+        const SlopeRelief relief = with_gullies(slope_relief(at, width_m), at, width_m, 2.0f * a.w);
+        const float ribs = land_ribs(at, width_m);
+        const vec3 n = land_normal(probe_direction(b.x, b.y), relief.flatter, ribs, land_relief_share(b.z));
+        return vec4(n.x + 2.0f * n.y + 3.0f * n.z, ribs, relief.flatter, relief.lost);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

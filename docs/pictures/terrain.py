@@ -11,13 +11,14 @@ import sys
 import zlib
 
 from eroded import bed, erode, fractal, noise, smooth
+from plants import boulder, conifer, tuft
 
 SIDE_M = 2400.0
 NODES = 241        # a side, of what rivers cut
 STEP_M = SIDE_M / (NODES - 1)
-CELLS = 500        # a side, of the mesh: finer by the eye
+CELLS = 440        # a side, of the mesh: finer by the eye
 MAP = 768          # texels a side, of the maps
-EYE = (0.0, 1010.0)
+EYE = (-10.0, 985.0)
 
 
 def png(path, width, height, channels, rows):
@@ -207,28 +208,17 @@ def mesh_of(land_):
     return positions, normals, uvs, indices, 0
 
 
-def conifer(draw, sides):
-    """A spruce one metre high: skirts of boughs with ragged rims, each over the one below."""
-    positions, normals, uvs, indices = [], [], [], []
-    tiers = 8
-    for tier in range(tiers):
-        low = 0.06 + 0.86 * tier / tiers
-        high = min(low + 0.24, 1.0)
-        reach = 0.19 * (1 - low) ** 0.8
-        first, turn = len(positions) // 3, draw.uniform(0, 6.28)
-        for k in range(2 * sides):
-            angle = turn + math.pi * k / sides
-            far = reach * (draw.uniform(0.85, 1.2) if k % 2 == 0 else draw.uniform(0.45, 0.65))
-            positions += [far * math.cos(angle), low + (0.0 if k % 2 == 0 else 0.05) + draw.uniform(-0.015, 0.015),
-                          far * math.sin(angle)]
-            normals += [0.8 * math.cos(angle), 0.6, 0.8 * math.sin(angle)]
-            uvs += [k / sides, 1]
-        positions += [0, high, 0]
-        normals += [0, 1, 0]
-        uvs += [0.5, 0]
-        for k in range(2 * sides):
-            indices += [first + (k + 1) % (2 * sides), first + k, first + 2 * sides]
-    return positions, normals, uvs, indices, 2
+def near_eye(land_, draw, count, reach_m, low, high, stands):
+    """What is too small to be seen from farther, before the eye, in the places that `stands` says."""
+    places = []
+    while len(places) < count:
+        away, turn = 14 + reach_m * draw.random() ** 1.5, draw.uniform(-0.7, 0.7)
+        x, z = EYE[0] + away * math.sin(turn), EYE[1] - away * math.cos(turn)
+        h = land_.height(x, z)
+        if h < 0.15 or draw.random() > stands(x, z): continue
+        size = low * (high / low) ** (draw.random() ** 2)
+        places.append((x, h, z, size))
+    return places
 
 
 def forest(land_, draw, count):
@@ -238,7 +228,7 @@ def forest(land_, draw, count):
         h = land_.height(x, z)
         if h < 3.0 or math.hypot(x - EYE[0], z - EYE[1]) < 40: continue
         steep = land_.slope(x, z)
-        stands = smooth(0.50, 0.60, fractal(x / 190, z / 190, 41, 4) + 0.12 * smooth(0.05, 0.3, steep) - 0.05)
+        stands = smooth(0.49, 0.58, fractal(x / 190, z / 190, 41, 4) + 0.12 * smooth(0.05, 0.3, steep) - 0.05)
         stands *= smooth(1.05, 0.75, steep) * smooth(235, 150, h + 60 * (fractal(x / 60, z / 60, 45, 3) - 0.5))
         stands *= smooth(0.06, 0.2, lake(x, z)) + 0.0
         if draw.random() > max(stands, 0.006 * (h < 230)): continue
@@ -253,23 +243,31 @@ def glb(path, land_):
     s = SIDE_M / 2
     out.nodes.append({"mesh": out.mesh([([-s, 0, s, s, 0, s, s, 0, -s, -s, 0, -s], [0, 1, 0] * 4,
                                          [0, 1, 1, 1, 1, 0, 0, 0], [0, 1, 2, 0, 2, 3], 1)]), "name": "lake"})
-    places = forest(land_, draw, 4200)
-    kinds = [conifer(draw, 7), conifer(draw, 6), conifer(draw, 7)]
-    for k, kind in enumerate(kinds):
-        here = places[k::len(kinds)]
+    places = forest(land_, draw, 4300)
+    patch = lambda x, z: fractal(x / 23, z / 23, 47, 4)
+    straw = near_eye(land_, draw, 7500, 150, 0.3, 0.8, lambda x, z: smooth(0.42, 0.60, patch(x, z)))
+    green = near_eye(land_, draw, 5000, 110, 0.2, 0.5, lambda x, z: smooth(0.58, 0.40, patch(x, z)))
+    stones = near_eye(land_, draw, 260, 520, 0.35, 4.5, lambda x, z: smooth(0.48, 0.66, fractal(x / 55, z / 55, 49, 4)))
+    spread = [(conifer(draw, 6, 2), places[0::3]), (conifer(draw, 6, 2), places[1::3]), (conifer(draw, 6, 2), places[2::3]),
+              (tuft(draw, 10, 3), straw[0::2]), (tuft(draw, 8, 3), straw[1::2]), (tuft(draw, 9, 4), green),
+              (boulder(draw, 5), stones[0::3]), (boulder(draw, 5), stones[1::3]), (boulder(draw, 5), stones[2::3])]
+    for k, (kind, here) in enumerate(spread):
         moves, turns, sizes = [], [], []
         for x, y, z, size in here:
             turn, wide = draw.uniform(0, math.pi), size * draw.uniform(0.85, 1.25)
             moves += [x, y, z]
             turns += [0, math.sin(turn), 0, math.cos(turn)]
             sizes += [wide, size, wide]
-        out.nodes.append({"mesh": out.mesh([kind]), "name": f"spruces {k}", "extensions": {"EXT_mesh_gpu_instancing": {
+        out.nodes.append({"mesh": out.mesh([kind]), "name": f"on the land {k}", "extensions": {"EXT_mesh_gpu_instancing": {
             "attributes": {"TRANSLATION": out.numbers(moves, "VEC3"), "ROTATION": out.numbers(turns, "VEC4"),
                            "SCALE": out.numbers(sizes, "VEC3")}}}})
     matt = lambda color, roughness: {"baseColorFactor": [*color, 1], "roughnessFactor": roughness, "metallicFactor": 0}
     out.write(path, [{"name": "land", "pbrMetallicRoughness": matt((1, 1, 1), 0.95)},
                      {"name": "lake", "pbrMetallicRoughness": matt((0.006, 0.012, 0.012), 0.05)},
-                     {"name": "spruce", "doubleSided": True, "pbrMetallicRoughness": matt((0.016, 0.026, 0.012), 0.9)}])
+                     {"name": "spruce", "doubleSided": True, "pbrMetallicRoughness": matt((0.016, 0.026, 0.012), 0.9)},
+                     {"name": "dry grass", "doubleSided": True, "pbrMetallicRoughness": matt((0.200, 0.145, 0.060), 0.8)},
+                     {"name": "green grass", "doubleSided": True, "pbrMetallicRoughness": matt((0.070, 0.088, 0.024), 0.8)},
+                     {"name": "boulder", "pbrMetallicRoughness": matt((0.170, 0.162, 0.155), 0.9)}])
 
 
 # ---- its maps ----------------------------------------------------------------------------------
@@ -290,7 +288,7 @@ def ground(land_, x, z, h, steep, hollow):
     fine = fractal(x / 14, z / 14, 151, 3)
     hard = bed(x, h, z, SIDE_M)
     wet = smooth(2.0, 6.0, land_.wetness(x, z))
-    rock = smooth(0.72, 1.0, steep + 0.9 * (patch - 0.5) + 0.35 * (hard - 0.5) + 0.0006 * max(h - 150, 0))
+    rock = smooth(0.78, 1.02, steep + 1.1 * (patch - 0.5) + 0.5 * (hard - 0.5) + 0.0007 * (h - 150))
     scree = smooth(0.52, 0.66, 0.55 * steep + 0.0011 * h + 0.9 * (patch - 0.5) + 0.4 * (fine - 0.5) - 0.05 * hollow)
     gravel = (1 - rock) * max(scree, smooth(0.6, 0.9, wet) * smooth(0.08, 0.2, steep) * smooth(0.35, 0.6, fine))
     shore = smooth(2.2, 0.5, h)
@@ -351,7 +349,7 @@ def clouds(folder):
                 total += share * ((wrap(u, v) * (1 - s) + wrap(u + 1, v) * s) * (1 - t) +
                                   (wrap(u, v + 1) * (1 - s) + wrap(u + 1, v + 1) * s) * t)
                 share *= 0.5
-            row.append(round(255 * (1 - 0.82 * smooth(0.50, 0.60, total))))
+            row.append(round(255 * (1 - 0.82 * smooth(0.54, 0.63, total))))
         rows.append(row)
     png(f"{folder}/terrain_clouds.png", size, size, 1, rows)
 
