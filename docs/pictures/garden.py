@@ -55,8 +55,10 @@ def blades(part, count):
         c, s, half = math.cos(turn), math.sin(turn), 0.0045
         top = [x + s * lean * height, height, z + c * lean * height]
         up = [0.3 * s, 0.954, 0.3 * c]
-        part.face([[x - c * half, 0, z + s * half], [x + c * half, 0, z - s * half], top],
-                  [[x, z], [x, z], [x, z]], up)
+        low, other = [x - c * half, 0, z + s * half], [x + c * half, 0, z - s * half]
+        # Either way round: of one triangle with two sides the back would look down.
+        for corners in ([low, other, top], [other, low, top]):
+            part.face(corners, [[x, z], [x, z], [x, z]], up)
 
 
 def evergreen(bark, needles, x, z):
@@ -137,10 +139,10 @@ def trees(needles):
     """A row and groves at the end of the lawn."""
     kinds = [conifer(draw, 7, 0)[:4] for _ in range(3)]
     places = []
-    while len(places) < 74:
+    while len(places) < 120:
         x, z = draw.uniform(-31, 31), draw.uniform(-57, -6)
-        row, side = z < -49, x > 23 and z < -20
-        if (row or side) and fractal(x / 13, z / 13, 29, 3) > 0.44:
+        row, side = z < -48 and x > -22, x > 24 and z < -20
+        if (row or side) and fractal(x / 13, z / 13, 29, 3) > 0.40:
             places.append((x, z, draw.uniform(2.0, 4.5) if draw.random() < 0.4 else draw.uniform(5, 9.5)))
     for x, z, size in places:
         positions, normals, uvs, indices = kinds[draw.randrange(3)]
@@ -184,7 +186,7 @@ def main():
 
     for name, part in parts.items():
         color, roughness = looks[name]
-        materials.append({"name": name, "doubleSided": name in ("grass blades", "needles", "far trees"),
+        materials.append({"name": name, "doubleSided": name in ("needles", "far trees"),
                           "pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "roughnessFactor": roughness,
                                                    "metallicFactor": 0}})
         primitives.append({"material": len(materials) - 1, "indices": add(part.indices, "SCALAR", 1),

@@ -37,7 +37,8 @@ def tuft(draw, blades, material):
                       (root + lean * high) * c, high, (root + lean * high) * s]
         normals += [0.3 * c, 0.95, 0.3 * s] * 3
         uvs += [0, 1, 1, 1, 0.5, 0]
-        indices += [first, first + 1, first + 2]
+        # Either way round: of one triangle with two sides the back would look down.
+        indices += [first, first + 1, first + 2, first, first + 2, first + 1]
     return positions, normals, uvs, indices, material
 
 

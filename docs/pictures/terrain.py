@@ -215,7 +215,7 @@ def near_eye(land_, draw, count, reach_m, low, high, stands):
         away, turn = 14 + reach_m * draw.random() ** 1.5, draw.uniform(-0.7, 0.7)
         x, z = EYE[0] + away * math.sin(turn), EYE[1] - away * math.cos(turn)
         h = land_.height(x, z)
-        if h < 0.15 or draw.random() > stands(x, z): continue
+        if h < 0.6 or draw.random() > stands(x, z): continue
         size = low * (high / low) ** (draw.random() ** 2)
         places.append((x, h, z, size))
     return places
@@ -265,15 +265,15 @@ def glb(path, land_):
     out.write(path, [{"name": "land", "pbrMetallicRoughness": matt((1, 1, 1), 0.95)},
                      {"name": "lake", "pbrMetallicRoughness": matt((0.006, 0.012, 0.012), 0.05)},
                      {"name": "spruce", "doubleSided": True, "pbrMetallicRoughness": matt((0.016, 0.026, 0.012), 0.9)},
-                     {"name": "dry grass", "doubleSided": True, "pbrMetallicRoughness": matt((0.200, 0.145, 0.060), 0.8)},
-                     {"name": "green grass", "doubleSided": True, "pbrMetallicRoughness": matt((0.070, 0.088, 0.024), 0.8)},
+                     {"name": "dry grass", "pbrMetallicRoughness": matt((0.200, 0.145, 0.060), 0.8)},
+                     {"name": "green grass", "pbrMetallicRoughness": matt((0.070, 0.088, 0.024), 0.8)},
                      {"name": "boulder", "pbrMetallicRoughness": matt((0.170, 0.162, 0.155), 0.9)}])
 
 
 # ---- its maps ----------------------------------------------------------------------------------
 
 # Linear colours from afar.
-MEADOW, DRY, HEATH = (0.050, 0.070, 0.018), (0.150, 0.112, 0.042), (0.085, 0.052, 0.026)
+MEADOW, DRY, HEATH = (0.056, 0.074, 0.020), (0.165, 0.128, 0.050), (0.092, 0.066, 0.028)
 ROCK, PALE_ROCK, WARM_ROCK = (0.085, 0.082, 0.082), (0.190, 0.178, 0.165), (0.150, 0.112, 0.085)
 SCREE, MUD = (0.150, 0.142, 0.132), (0.055, 0.046, 0.034)
 
