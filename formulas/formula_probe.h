@@ -46,17 +46,19 @@
 #include "formulas/weather/ground_relief.h"
 #include "formulas/weather/ground_tone.h"
 #include "formulas/weather/gusts.h"
+#include "formulas/weather/land_relief.h"
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/snow_body.h"
 #include "formulas/weather/snow_glints.h"
+#include "formulas/weather/soaked_walls.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 65;
+SHARED_CONST int kProbeKinds = 67;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -590,6 +592,18 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 lantern = lantern_place(at);
         const float seen = lantern_seen(vec2(c.x, 0.1f + 0.2f * c.y), at, 0.6f * c.z);
         return vec4(photometry.x + cookie.x, photometry.y + cookie.y, lantern.x + lantern.y, seen) / vec4(100.0f, 100.0f, 100.0f, 1.0f);
+    }
+    if (kind == 65) {
+        const vec3 at = vec3(60.0f * a.x - 30.0f, 40.0f * a.y, 60.0f * a.z - 30.0f);
+        const float width_m = 4.0f * b.w * b.w;
+        const SlopeRelief relief = with_gullies(slope_relief(at, width_m), at, width_m, 2.0f * a.w);
+        const float ribs = land_ribs(at, width_m);
+        const vec3 n = land_normal(probe_direction(b.x, b.y), relief.flatter, ribs, land_relief_share(b.z));
+        return vec4(n.x + 2.0f * n.y + 3.0f * n.z, ribs, 3.0f + relief.flatter, relief.lost);
+    }
+    if (kind == 66) {
+        const float wall = drinking_wall(2.0f * a.x - 1.0f, a.y);
+        return vec4(wall, film_not_drunk(wall, a.z), soaked_share(b.x, 30.0f * b.y - 15.0f, 12.0f * b.z), soaked_share(c.x, c.y, c.z));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Writes a garden for a frosty dawn: a lawn with blades, an evergreen, a brick house. garden.py OUT.glb"""
+"""Writes a garden for a frosty dawn: a lawn with blades, an evergreen, a brick house, trees. garden.py OUT.glb"""
 import json
 import math
 import random
 import struct
 import sys
+
+from eroded import fractal
+from plants import conifer
 
 draw = random.Random(11)
 
@@ -52,8 +55,10 @@ def blades(part, count):
         c, s, half = math.cos(turn), math.sin(turn), 0.0045
         top = [x + s * lean * height, height, z + c * lean * height]
         up = [0.3 * s, 0.954, 0.3 * c]
-        part.face([[x - c * half, 0, z + s * half], [x + c * half, 0, z - s * half], top],
-                  [[x, z], [x, z], [x, z]], up)
+        low, other = [x - c * half, 0, z + s * half], [x + c * half, 0, z - s * half]
+        # Either way round: of one triangle with two sides the back would look down.
+        for corners in ([low, other, top], [other, low, top]):
+            part.face(corners, [[x, z], [x, z], [x, z]], up)
 
 
 def evergreen(bark, needles, x, z):
@@ -79,26 +84,91 @@ def evergreen(bark, needles, x, z):
         needles.face([add(-1, 0), add(0, -0.4), add(1, 0), add(0, 0.4)], [[0, 0], [1, 0], [1, 1], [0, 1]])
 
 
-def house(wall, wood, glass):
+def window(wood, glass, stone, z, low, high, half):
+    """Two casements of six panes each in a frame, on a sill, under a lintel."""
+    face = -4.0
+    wood.box([face, low, z - half], [face + 0.05, high, z - half + 0.07], 1.0)
+    wood.box([face, low, z + half - 0.07], [face + 0.05, high, z + half], 1.0)
+    wood.box([face, high - 0.08, z - half], [face + 0.05, high, z + half], 1.0)
+    wood.box([face, low, z - half], [face + 0.05, low + 0.08, z + half], 1.0)
+    wood.box([face, low, z - 0.05], [face + 0.045, high, z + 0.05], 1.0)
+    glass.rectangle([face + 0.012, low + 0.06, z + half - 0.05], [0, 0, 0.10 - 2 * half], [0, high - low - 0.12, 0], 1.0)
+    for side in (-1, 1):
+        middle = z + side * (half + 0.0) / 2
+        wood.box([face, low, middle - 0.014], [face + 0.03, high, middle + 0.014], 1.0)
+    for k in (1, 2):
+        y = low + (high - low) * k / 3
+        wood.box([face, y - 0.014, z - half], [face + 0.03, y + 0.014, z + half], 1.0)
+    stone.box([face - 0.02, low - 0.09, z - half - 0.1], [face + 0.13, low, z + half + 0.1], 1.0)
+    stone.box([face - 0.02, high, z - half - 0.14], [face + 0.025, high + 0.2, z + half + 0.14], 1.0)
+
+
+def door(wood, leaf, stone, z, high, half):
+    """A panelled leaf in a frame, with a light over it, a step and a knob."""
+    face = -4.0
+    for side in (-1, 1):
+        at = z + side * half
+        wood.box([face, 0, at - 0.06], [face + 0.07, high + 0.08, at + 0.06], 1.0)
+    wood.box([face, high, z - half], [face + 0.07, high + 0.10, z + half], 1.0)
+    leaf.box([face, 0.06, z - half], [face + 0.02, high, z + half], 1.0)
+    for low, top in ((0.22, 0.82), (0.98, 1.42), (1.54, high - 0.12)):
+        for side in (-1, 1):
+            middle = z + side * 0.23
+            leaf.box([face, low, middle - 0.17], [face + 0.035, top, middle + 0.17], 1.0)
+    leaf.box([face, 0.96, z + half - 0.14], [face + 0.08, 1.02, z + half - 0.08], 1.0)
+    stone.box([face, -0.05, z - half - 0.15], [face + 0.45, 0.09, z + half + 0.15], 1.0)
+    stone.box([face - 0.02, high + 0.10, z - half - 0.2], [face + 0.03, high + 0.32, z + half + 0.2], 1.0)
+
+
+def house(wall, wood, glass, leaf, stone, roof):
     wall.box([-9.0, 0, -13], [-4.0, 4.6, 4.0], 1.8)
+    stone.box([-9.0, 0, -13.03], [-3.97, 0.28, 4.0], 1.0)
     for z in (-9.5, -5.8, -1.2):
-        wood.box([-4.02, 1.0, z - 0.62], [-3.95, 2.5, z + 0.62], 1.0)
-        glass.rectangle([-3.945, 1.08, z + 0.54], [0, 0, -1.08], [0, 1.34, 0], 1.0)
-        wood.box([-3.95, 1.08, z - 0.03], [-3.93, 2.42, z + 0.03], 1.0)
-    wood.box([-4.02, 0, -3.9], [-3.95, 2.15, -2.9], 1.0)
+        window(wood, glass, stone, z, 1.0, 2.5, 0.62)
+    door(wood, leaf, stone, -3.4, 2.1, 0.47)
+    # Eaves: a roof of tiles, its boards, a gutter and its pipe.
+    roof.rectangle([-3.45, 4.45, 4.4], [0, 0, -17.8], [-3.05, 2.5, 0], 1.0)
+    roof.rectangle([-9.55, 4.45, -13.4], [0, 0, 17.8], [3.05, 2.5, 0], 1.0)
+    wall.face([[-4.0, 4.6, -13], [-9.0, 4.6, -13], [-6.5, 6.75, -13]], [[0, 0], [2.8, 0], [1.4, 1.2]])
+    wood.box([-4.0, 4.38, -13.4], [-3.42, 4.44, 4.4], 1.0)
+    wood.box([-3.44, 4.30, -13.4], [-3.34, 4.46, 4.4], 1.0)
+    wood.box([-3.98, 0.0, -12.75], [-3.88, 4.4, -12.65], 1.0)
+
+
+def trees(needles):
+    """A row and groves at the end of the lawn."""
+    kinds = [conifer(draw, 7, 0)[:4] for _ in range(3)]
+    places = []
+    while len(places) < 120:
+        x, z = draw.uniform(-31, 31), draw.uniform(-57, -6)
+        row, side = z < -48 and x > -22, x > 24 and z < -20
+        if (row or side) and fractal(x / 13, z / 13, 29, 3) > 0.40:
+            places.append((x, z, draw.uniform(2.0, 4.5) if draw.random() < 0.4 else draw.uniform(5, 9.5)))
+    for x, z, size in places:
+        positions, normals, uvs, indices = kinds[draw.randrange(3)]
+        first, wide = len(needles.positions) // 3, size * draw.uniform(1.1, 1.7)
+        for k in range(0, len(positions), 3):
+            needles.positions += [x + wide * positions[k], size * positions[k + 1] - 0.15, z + wide * positions[k + 2]]
+        needles.normals += normals
+        needles.uvs += uvs
+        needles.indices += [first + i for i in indices]
 
 
 def main():
-    parts = {name: Part() for name in ("lawn", "grass blades", "paving", "brick", "door wood", "window glass",
-                                       "bark", "needles")}
-    parts["lawn"].rectangle([-20, 0, 14], [40, 0, 0], [0, 0, -44], 1.0)
+    parts = {name: Part() for name in ("lawn", "grass blades", "paving", "brick", "white wood", "window glass",
+                                       "bark", "needles", "door leaf", "sill stone", "roof tiles", "far trees")}
+    trees(parts["far trees"])
+    parts["lawn"].rectangle([-32, 0, 14], [64, 0, 0], [0, 0, -72], 1.0)
     parts["paving"].box([-3.55, -0.1, -12.0], [-2.45, 0.02, 6.0], 2.0)
     blades(parts["grass blades"], 52000)
     evergreen(parts["bark"], parts["needles"], 1.9, -4.2)
-    house(parts["brick"], parts["door wood"], parts["window glass"])
+    house(parts["brick"], parts["white wood"], parts["window glass"], parts["door leaf"], parts["sill stone"],
+          parts["roof tiles"])
     looks = {"lawn": ([1, 1, 1], 0.9), "grass blades": ([0.055, 0.085, 0.022], 0.7), "paving": ([1, 1, 1], 1),
-             "brick": ([1, 1, 1], 1), "door wood": ([0.55, 0.53, 0.48], 0.6), "window glass": ([0.02, 0.022, 0.025], 0.06),
-             "bark": ([0.11, 0.075, 0.05], 0.95), "needles": ([0.022, 0.04, 0.016], 0.75)}
+             "brick": ([1, 1, 1], 1), "white wood": ([0.50, 0.48, 0.44], 0.55), "window glass": ([0.02, 0.022, 0.025], 0.06),
+             "bark": ([0.11, 0.075, 0.05], 0.95), "needles": ([0.022, 0.04, 0.016], 0.75),
+             "door leaf": ([0.022, 0.055, 0.050], 0.4), "sill stone": ([0.30, 0.28, 0.25], 0.85),
+             "roof tiles": ([0.10, 0.065, 0.05], 0.8), "far trees": ([0.020, 0.030, 0.016], 0.85)}
     data, views, accessors, primitives, materials = b"", [], [], [], []
 
     def add(numbers, kind, width):
@@ -116,7 +186,7 @@ def main():
 
     for name, part in parts.items():
         color, roughness = looks[name]
-        materials.append({"name": name, "doubleSided": name in ("grass blades", "needles"),
+        materials.append({"name": name, "doubleSided": name in ("needles", "far trees"),
                           "pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "roughnessFactor": roughness,
                                                    "metallicFactor": 0}})
         primitives.append({"material": len(materials) - 1, "indices": add(part.indices, "SCALAR", 1),

@@ -1,167 +1,364 @@
-"""The land of docs/pictures/terrain.toml: a valley as glTF, the weights of its four grounds, its colour from afar.
+"""The land of docs/pictures/terrain.toml: a valley with a lake below mountains that rivers have cut (eroded.py) as glTF, with a
+forest, the weights of its four grounds, its colour from afar, and the shadows of clouds.
 
     terrain.py FOLDER
 """
 import json
 import math
+import random
 import struct
 import sys
 import zlib
 
-SIDE_M = 1000.0
-CELLS = 320
-MAP = 512
+from eroded import bed, erode, fractal, noise, smooth
+from plants import boulder, conifer, tuft
+
+SIDE_M = 2400.0
+NODES = 241        # a side, of what rivers cut
+STEP_M = SIDE_M / (NODES - 1)
+CELLS = 440        # a side, of the mesh: finer by the eye
+MAP = 768          # texels a side, of the maps
+EYE = (-10.0, 985.0)
 
 
 def png(path, width, height, channels, rows):
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    header = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, 8, {1: 0, 3: 2, 4: 6}[channels], 0, 0, 0)
     data = zlib.compress(b"".join(b"\0" + bytes(row) for row in rows), 9)
     with open(path, "wb") as out:
         out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", data) + chunk(b"IEND", b""))
 
 
-def hashed(x, y, seed):
-    h = (x * 374761393 + y * 668265263 + seed * 2246822519) & 0xFFFFFFFF
-    h = ((h ^ (h >> 13)) * 1274126177) & 0xFFFFFFFF
-    return ((h ^ (h >> 16)) & 0xFFFF) / 65535
+# ---- the land ----------------------------------------------------------------------------------
 
 
-def noise(x, y, seed):
-    i, j = math.floor(x), math.floor(y)
-    u, v = x - i, y - j
-    u, v = u * u * u * (u * (6 * u - 15) + 10), v * v * v * (v * (6 * v - 15) + 10)
-    low = hashed(i, j, seed) * (1 - u) + hashed(i + 1, j, seed) * u
-    high = hashed(i, j + 1, seed) * (1 - u) + hashed(i + 1, j + 1, seed) * u
-    return low * (1 - v) + high * v
+def valley(x, z):
+    """How far from the floor of the valley, metres; negative on it. Its head is round."""
+    bend = 120 * math.sin(z / 430 + 0.2) - 20
+    width = 175 + 45 * math.sin(z / 210 + 1.0)
+    head = max(0.0, -(z + 180.0))
+    return math.hypot(abs(x - bend), head) - width
 
 
-def smooth(low, high, x):
-    t = max(0.0, min(1.0, (x - low) / (high - low)))
-    return t * t * (3 - 2 * t)
+def lake(x, z):
+    """Below 0 in the lake, about -1 in its middle."""
+    bend = 120 * math.sin(z / 430 + 0.2) - 20
+    return math.hypot((x - bend - 20) / 165, (z - 430) / 400) - 1 + 0.3 * (fractal(x / 120, z / 120, 55, 4) - 0.5)
 
 
-def ridges(x, y, seed, octaves):
-    total, share, weight = 0.0, 0.5, 1.0
-    for k in range(octaves):
-        ridge = 1 - abs(2 * noise(x * 2**k, y * 2**k, seed + k) - 1)
-        ridge *= ridge * weight
-        weight = min(1.0, 1.6 * ridge)
-        total += ridge * share
-        share *= 0.5
-    return total
-
-
-def height(x, z):
-    """Metres, at x, z in metres from the middle: a valley along z, which turns, between two ranges."""
-    u, v = x / SIDE_M, z / SIDE_M
-    bend = 0.05 * math.sin(6.0 * v + 0.6)
-    across = abs(u - bend)
-    sides = smooth(0.03, 0.42, across)
-    head = smooth(0.12, -0.40, v)
-    peaks = ridges(2.9 * u + 3.1, 2.9 * v + 5.2, 11, 8)
-    rolling = sum(noise(9 * u * 2**k, 9 * v * 2**k, 71 + k) * 0.5**k for k in range(5)) / 2
-    return 7 * rolling + 60 * across * across + sides * (15 + 120 * peaks) + head * (30 + 330 * peaks)
+def floor_of(x, z):
+    bank = lake(x, z)
+    rise = 5.0 + 4.5 * (fractal(x / 110, z / 110, 33, 4) - 0.5) + 0.03 * max(0.0, 170 - z)
+    return -4.0 + (rise + 4.0) * smooth(-0.14, 0.16, bank)
 
 
 def land():
+    heights, fixed, uplift = [], bytearray(NODES * NODES), []
+    for j in range(NODES):
+        for i in range(NODES):
+            x, z = i * STEP_M - SIDE_M / 2, j * STEP_M - SIDE_M / 2
+            away = valley(x, z)
+            edge = min(i, j, NODES - 1 - i, NODES - 1 - j)
+            inside = smooth(0.0, 420.0, SIDE_M / 2 - max(abs(x), -z))
+            peak = math.exp(-((x + 130) ** 2 + (z + 740) ** 2) / 230.0**2)
+            right = math.exp(-((x - 640) ** 2 + (z + 130) ** 2) / 260.0**2)
+            range_ = smooth(-40.0, 620.0, away) * (0.42 + 0.58 * smooth(1200.0, -200.0, z))
+            uplift.append((2.0 + 12.0 * range_ * (0.35 + 0.65 * inside) + 11.0 * peak + 6.0 * right) *
+                          (0.55 + 0.9 * fractal(x / 420, z / 420, 7, 3)))
+            if away < 0.0:
+                fixed[j * NODES + i] = 1
+                heights.append(floor_of(x, z))
+            elif edge == 0:
+                fixed[j * NODES + i] = 1
+                heights.append(60.0)
+            else:
+                heights.append(12.0 + 170 * smooth(0.0, 500.0, away) * fractal(x / 380, z / 380, 3, 6))
+    return erode(heights, fixed, uplift, NODES, STEP_M, SIDE_M, 40, 2.2)
+
+
+def cubic(a, b, c, d, t):
+    return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)))
+
+
+class Land:
+    def __init__(self):
+        self.heights, area = land()
+        # Fans of gravel and soft feet of the slopes: of what is low, the mean of what is around.
+        for _ in range(3):
+            h, n = self.heights, NODES
+            self.heights = [h[k] if k < n or k >= n * n - n or k % n in (0, n - 1) else
+                            h[k] + (0.6 * smooth(190.0, 30.0, h[k]) + 0.12) *
+                            (0.25 * (h[k - 1] + h[k + 1] + h[k - n] + h[k + n]) - h[k]) for k in range(n * n)]
+        self.wet = [math.log(max(a, 1.0)) for a in area]
+
+    def place(self, x, z):
+        u, v = (x + SIDE_M / 2) / STEP_M, (z + SIDE_M / 2) / STEP_M
+        i, j = min(max(int(u), 0), NODES - 2), min(max(int(v), 0), NODES - 2)
+        return i, j, u - i, v - j
+
+    def smoothed(self, x, z):
+        i, j, u, v = self.place(x, z)
+        h, last = self.heights, NODES - 1
+        a, b, c, d = max(i - 1, 0), i, i + 1, min(i + 2, last)
+        rows = []
+        for row in (max(j - 1, 0), j, j + 1, min(j + 2, last)):
+            k = row * NODES
+            rows.append(cubic(h[k + a], h[k + b], h[k + c], h[k + d], u))
+        return cubic(*rows, v)
+
+    def wetness(self, x, z):
+        i, j, u, v = self.place(x, z)
+        w, k = self.wet, j * NODES + i
+        return (w[k] * (1 - u) + w[k + 1] * u) * (1 - v) + (w[k + NODES] * (1 - u) + w[k + NODES + 1] * u) * v
+
+    def slope(self, x, z):
+        return math.hypot(self.smoothed(x + 5, z) - self.smoothed(x - 5, z),
+                          self.smoothed(x, z + 5) - self.smoothed(x, z - 5)) / 10
+
+    def height(self, x, z):
+        """What rivers cut, and on what is steep the crags that are finer than their grid."""
+        h = self.smoothed(x, z)
+        steep = smooth(0.35, 1.1, self.slope(x, z))
+        crag, share, p, q = 0.0, 1.0, x / 33.0, z / 33.0
+        for k in range(4):
+            crag += share * (1 - 2 * abs(noise(p, q, 61 + k) - 0.5))
+            p, q, share = 1.6 * p - 1.2 * q, 1.2 * p + 1.6 * q, 0.52 * share
+        shore = smooth(0.4, 3.0, abs(h))
+        return h + 9.0 * steep * (crag - 1.2) + 1.1 * shore * (fractal(x / 17, z / 17, 81, 3) - 0.5)
+
+
+# ---- glTF --------------------------------------------------------------------------------------
+
+
+def spacing(low, high, eye, count):
+    """Places from low to high, closer by the eye."""
+    at, places = low, [low]
+    weights = []
+    for k in range(count):
+        middle = low + (k + 0.5) / count * (high - low)
+        weights.append(middle)
+    # Widths that grow with the distance, scaled to fit: a few rounds settle where each lies.
+    for _ in range(8):
+        widths = [1.2 + 0.0052 * abs(w - eye) for w in weights]
+        scale = (high - low) / sum(widths)
+        at, places = low, [low]
+        for k in range(count):
+            at += widths[k] * scale
+            places.append(at)
+            weights[k] = at - 0.5 * widths[k] * scale
+    return places
+
+
+class Glb:
+    def __init__(self):
+        self.data, self.views, self.accessors, self.meshes, self.nodes = bytearray(), [], [], [], []
+
+    def numbers(self, values, kind):
+        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[kind]
+        packed = struct.pack(f"<{len(values)}{'I' if kind == 'SCALAR' else 'f'}", *values)
+        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(packed)})
+        self.data += packed
+        accessor = {"bufferView": len(self.views) - 1, "componentType": 5125 if kind == "SCALAR" else 5126,
+                    "count": len(values) // width, "type": kind}
+        if kind == "VEC3":
+            accessor["min"] = [min(values[k::3]) for k in range(3)]
+            accessor["max"] = [max(values[k::3]) for k in range(3)]
+        self.accessors.append(accessor)
+        return len(self.accessors) - 1
+
+    def mesh(self, parts):
+        primitives = [{"attributes": {"POSITION": self.numbers(p, "VEC3"), "NORMAL": self.numbers(n, "VEC3"),
+                                      "TEXCOORD_0": self.numbers(t, "VEC2")},
+                       "indices": self.numbers(i, "SCALAR"), "material": m} for p, n, t, i, m in parts]
+        self.meshes.append({"primitives": primitives})
+        return len(self.meshes) - 1
+
+    def write(self, path, materials):
+        gltf = {"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_mesh_gpu_instancing"], "scene": 0,
+                "scenes": [{"nodes": list(range(len(self.nodes)))}], "nodes": self.nodes, "materials": materials,
+                "meshes": self.meshes, "buffers": [{"byteLength": len(self.data)}], "bufferViews": self.views,
+                "accessors": self.accessors}
+        text = json.dumps(gltf).encode()
+        text += b" " * (-len(text) % 4)
+        with open(path, "wb") as out:
+            out.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(self.data)))
+            out.write(struct.pack("<I4s", len(text), b"JSON") + text)
+            out.write(struct.pack("<I4s", len(self.data), b"BIN\0") + self.data)
+
+
+def mesh_of(land_):
     n = CELLS + 1
-    step = SIDE_M / CELLS
-    heights = [[height(i * step - SIDE_M / 2, j * step - SIDE_M / 2) for i in range(n)] for j in range(n)]
-
-    def slope(i, j):
-        left, right = heights[j][max(i - 1, 0)], heights[j][min(i + 1, CELLS)]
-        back, front = heights[max(j - 1, 0)][i], heights[min(j + 1, CELLS)][i]
-        return (right - left) / (2 * step), (front - back) / (2 * step)
-
-    return heights, slope
-
-
-def glb(path, heights, slope):
-    n, step = CELLS + 1, SIDE_M / CELLS
-    positions, normals, uvs, indices = bytearray(), bytearray(), bytearray(), bytearray()
+    xs, zs = spacing(-SIDE_M / 2, SIDE_M / 2, EYE[0], CELLS), spacing(-SIDE_M / 2, SIDE_M / 2, EYE[1], CELLS)
+    h = [[land_.height(x, z) for x in xs] for z in zs]
+    positions, normals, uvs, indices = [], [], [], []
     for j in range(n):
         for i in range(n):
-            sx, sz = slope(i, j)
+            a, b, c, d = max(i - 1, 0), min(i + 1, CELLS), max(j - 1, 0), min(j + 1, CELLS)
+            sx, sz = (h[j][b] - h[j][a]) / (xs[b] - xs[a]), (h[d][i] - h[c][i]) / (zs[d] - zs[c])
             length = math.sqrt(1 + sx * sx + sz * sz)
-            positions += struct.pack("<3f", i * step - SIDE_M / 2, heights[j][i], j * step - SIDE_M / 2)
-            normals += struct.pack("<3f", -sx / length, 1 / length, -sz / length)
-            uvs += struct.pack("<2f", i / CELLS, j / CELLS)
+            positions += [xs[i], h[j][i], zs[j]]
+            normals += [-sx / length, 1 / length, -sz / length]
+            uvs += [xs[i] / SIDE_M + 0.5, zs[j] / SIDE_M + 0.5]
     for j in range(CELLS):
         for i in range(CELLS):
             a = j * n + i
-            indices += struct.pack("<6I", a, a + n, a + 1, a + 1, a + n, a + n + 1)
-    low = min(map(min, heights))
-    high = max(map(max, heights))
-    blobs = [bytes(positions), bytes(normals), bytes(uvs), bytes(indices)]
-    starts = [sum(len(b) for b in blobs[:k]) for k in range(4)]
-    count = n * n
-    gltf = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "name": "land"}],
-        "materials": [{"name": "land"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}],
-        "buffers": [{"byteLength": sum(map(len, blobs))}],
-        "bufferViews": [{"buffer": 0, "byteOffset": s, "byteLength": len(b)} for s, b in zip(starts, blobs)],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3",
-             "min": [-SIDE_M / 2, low, -SIDE_M / 2], "max": [SIDE_M / 2, high, SIDE_M / 2]},
-            {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
-            {"bufferView": 2, "componentType": 5126, "count": count, "type": "VEC2"},
-            {"bufferView": 3, "componentType": 5125, "count": len(blobs[3]) // 4, "type": "SCALAR"},
-        ],
-    }
-    text = json.dumps(gltf).encode()
-    text += b" " * (-len(text) % 4)
-    body = b"".join(blobs)
-    with open(path, "wb") as out:
-        out.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(body)))
-        out.write(struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(body), b"BIN\0") + body)
+            indices += [a, a + n, a + 1, a + 1, a + n, a + n + 1]
+    return positions, normals, uvs, indices, 0
 
 
-# Linear colours of the four from afar: grass, rock, gravel, mud.
-FAR = [(0.040, 0.064, 0.018), (0.088, 0.085, 0.081), (0.122, 0.114, 0.102), (0.080, 0.062, 0.044)]
+def near_eye(land_, draw, count, reach_m, low, high, stands):
+    """What is too small to be seen from farther, before the eye, in the places that `stands` says."""
+    places = []
+    while len(places) < count:
+        away, turn = 14 + reach_m * draw.random() ** 1.5, draw.uniform(-0.7, 0.7)
+        x, z = EYE[0] + away * math.sin(turn), EYE[1] - away * math.cos(turn)
+        h = land_.height(x, z)
+        if h < 0.6 or draw.random() > stands(x, z): continue
+        size = low * (high / low) ** (draw.random() ** 2)
+        places.append((x, h, z, size))
+    return places
 
 
-def weights(i, j, heights, slope):
-    x, z = i * CELLS / (MAP - 1), j * CELLS / (MAP - 1)
-    ci, cj = min(int(x), CELLS - 1), min(int(z), CELLS - 1)
-    u, v = x - ci, z - cj
-    at = lambda f: (f(ci, cj) * (1 - u) + f(ci + 1, cj) * u) * (1 - v) + (f(ci, cj + 1) * (1 - u) + f(ci + 1, cj + 1) * u) * v
-    h = at(lambda a, b: heights[b][a])
-    steep = at(lambda a, b: math.hypot(*slope(a, b)))
-    patch = sum(noise(x / 9 * 2**k, z / 9 * 2**k, 131 + k) * 0.5 ** (k + 1) for k in range(6))
-    rock = smooth(0.72, 0.95, steep + 0.8 * (patch - 0.5))
-    gravel = (1 - rock) * smooth(0.50, 0.66, steep + 0.9 * (patch - 0.5))
-    gravel = max(gravel, (1 - rock) * smooth(95, 135, h + 60 * (patch - 0.5)))
-    mud = (1 - rock - gravel) * smooth(0.60, 0.68, patch - 0.002 * h)
-    return [1 - rock - gravel - mud, rock, gravel, mud]
+def forest(land_, draw, count):
+    places = []
+    while len(places) < count:
+        x, z = draw.uniform(-1000, 1000), draw.uniform(-800, 1150)
+        h = land_.height(x, z)
+        if h < 3.0 or math.hypot(x - EYE[0], z - EYE[1]) < 40: continue
+        steep = land_.slope(x, z)
+        stands = smooth(0.49, 0.58, fractal(x / 190, z / 190, 41, 4) + 0.12 * smooth(0.05, 0.3, steep) - 0.05)
+        stands *= smooth(1.05, 0.75, steep) * smooth(235, 150, h + 60 * (fractal(x / 60, z / 60, 45, 3) - 0.5))
+        stands *= smooth(0.06, 0.2, lake(x, z)) + 0.0
+        if draw.random() > max(stands, 0.006 * (h < 230)): continue
+        # Smaller where it is cold.
+        places.append((x, h - 0.3, z, draw.uniform(9, 19) * (1 - 0.5 * smooth(90, 240, h))))
+    return places
+
+
+def glb(path, land_):
+    draw, out = random.Random(5), Glb()
+    out.nodes.append({"mesh": out.mesh([mesh_of(land_)]), "name": "land"})
+    s = SIDE_M / 2
+    out.nodes.append({"mesh": out.mesh([([-s, 0, s, s, 0, s, s, 0, -s, -s, 0, -s], [0, 1, 0] * 4,
+                                         [0, 1, 1, 1, 1, 0, 0, 0], [0, 1, 2, 0, 2, 3], 1)]), "name": "lake"})
+    places = forest(land_, draw, 4300)
+    patch = lambda x, z: fractal(x / 23, z / 23, 47, 4)
+    straw = near_eye(land_, draw, 7500, 150, 0.3, 0.8, lambda x, z: smooth(0.42, 0.60, patch(x, z)))
+    green = near_eye(land_, draw, 5000, 110, 0.2, 0.5, lambda x, z: smooth(0.58, 0.40, patch(x, z)))
+    stones = near_eye(land_, draw, 260, 520, 0.35, 4.5, lambda x, z: smooth(0.48, 0.66, fractal(x / 55, z / 55, 49, 4)))
+    spread = [(conifer(draw, 6, 2), places[0::3]), (conifer(draw, 6, 2), places[1::3]), (conifer(draw, 6, 2), places[2::3]),
+              (tuft(draw, 10, 3), straw[0::2]), (tuft(draw, 8, 3), straw[1::2]), (tuft(draw, 9, 4), green),
+              (boulder(draw, 5), stones[0::3]), (boulder(draw, 5), stones[1::3]), (boulder(draw, 5), stones[2::3])]
+    for k, (kind, here) in enumerate(spread):
+        moves, turns, sizes = [], [], []
+        for x, y, z, size in here:
+            turn, wide = draw.uniform(0, math.pi), size * draw.uniform(0.85, 1.25)
+            moves += [x, y, z]
+            turns += [0, math.sin(turn), 0, math.cos(turn)]
+            sizes += [wide, size, wide]
+        out.nodes.append({"mesh": out.mesh([kind]), "name": f"on the land {k}", "extensions": {"EXT_mesh_gpu_instancing": {
+            "attributes": {"TRANSLATION": out.numbers(moves, "VEC3"), "ROTATION": out.numbers(turns, "VEC4"),
+                           "SCALE": out.numbers(sizes, "VEC3")}}}})
+    matt = lambda color, roughness: {"baseColorFactor": [*color, 1], "roughnessFactor": roughness, "metallicFactor": 0}
+    out.write(path, [{"name": "land", "pbrMetallicRoughness": matt((1, 1, 1), 0.95)},
+                     {"name": "lake", "pbrMetallicRoughness": matt((0.006, 0.012, 0.012), 0.05)},
+                     {"name": "spruce", "doubleSided": True, "pbrMetallicRoughness": matt((0.016, 0.026, 0.012), 0.9)},
+                     {"name": "dry grass", "pbrMetallicRoughness": matt((0.200, 0.145, 0.060), 0.8)},
+                     {"name": "green grass", "pbrMetallicRoughness": matt((0.070, 0.088, 0.024), 0.8)},
+                     {"name": "boulder", "pbrMetallicRoughness": matt((0.170, 0.162, 0.155), 0.9)}])
+
+
+# ---- its maps ----------------------------------------------------------------------------------
+
+# Linear colours from afar.
+MEADOW, DRY, HEATH = (0.056, 0.074, 0.020), (0.165, 0.128, 0.050), (0.092, 0.066, 0.028)
+ROCK, PALE_ROCK, WARM_ROCK = (0.085, 0.082, 0.082), (0.190, 0.178, 0.165), (0.150, 0.112, 0.085)
+SCREE, MUD = (0.150, 0.142, 0.132), (0.055, 0.046, 0.034)
+
+
+def mixed(a, b, t):
+    return tuple(p * (1 - t) + q * t for p, q in zip(a, b))
+
+
+def ground(land_, x, z, h, steep, hollow):
+    """Weights of grass, rock, gravel and mud at a place, and its colour from afar."""
+    patch = fractal(x / 75, z / 75, 131, 6)
+    fine = fractal(x / 14, z / 14, 151, 3)
+    hard = bed(x, h, z, SIDE_M)
+    wet = smooth(2.0, 6.0, land_.wetness(x, z))
+    rock = smooth(0.78, 1.02, steep + 1.1 * (patch - 0.5) + 0.5 * (hard - 0.5) + 0.0007 * (h - 150))
+    scree = smooth(0.52, 0.66, 0.55 * steep + 0.0011 * h + 0.9 * (patch - 0.5) + 0.4 * (fine - 0.5) - 0.05 * hollow)
+    gravel = (1 - rock) * max(scree, smooth(0.6, 0.9, wet) * smooth(0.08, 0.2, steep) * smooth(0.35, 0.6, fine))
+    shore = smooth(2.2, 0.5, h)
+    gravel = max(gravel, (1 - rock) * shore * smooth(0.35, 0.6, fine))
+    mud = (1 - rock - gravel) * max(shore, smooth(0.60, 0.70, patch + 0.3 * (fine - 0.5) + 0.1 * wet - 0.1 * steep))
+    grass = max(0.0, 1 - rock - gravel - mud)
+    dry = smooth(0.36, 0.62, fractal(x / 130, z / 130, 201, 5) + 0.0011 * h - 0.12 * wet - 0.06 * hollow)
+    heath = smooth(0.52, 0.64, fractal(x / 95, z / 95, 211, 5) + 0.0004 * h)
+    turf = mixed(mixed(MEADOW, DRY, dry), HEATH, 0.8 * heath)
+    stone = mixed(mixed(ROCK, PALE_ROCK, smooth(0.36, 0.62, hard)), WARM_ROCK,
+                  0.7 * smooth(0.5, 0.7, fractal(x / 160, z / 160 + h / 90, 221, 3)))
+    # Water that runs down rock leaves it dark.
+    stained = 0.35 * smooth(0.45, 0.7, wet + 0.3 * (fine - 0.5))
+    stone = tuple(c * (1 - stained) for c in stone)
+    shares = (grass, rock, gravel, mud)
+    vary = (0.62 + 0.76 * fractal(x / 9, z / 9, 231, 3)) * (1 + 0.16 * max(-1.0, min(1.0, -hollow)))
+    return shares, tuple(vary * (grass * turf[c] + rock * stone[c] + gravel * SCREE[c] + mud * MUD[c]) for c in range(3))
 
 
 def code(linear):
-    return round(255 * max(0.0, min(1.0, 1.055 * linear ** (1 / 2.4) - 0.055)))
+    return round(255 * max(0.0, min(1.0, 1.055 * max(linear, 0.0) ** (1 / 2.4) - 0.055)))
 
 
-def main():
-    folder = sys.argv[1]
-    heights, slope = land()
-    glb(f"{folder}/terrain.glb", heights, slope)
+def maps(folder, land_):
+    step = SIDE_M / MAP
+    at = lambda k: (k + 0.5) * step - SIDE_M / 2
+    h = [[land_.height(at(i), at(j)) for i in range(MAP)] for j in range(MAP)]
     control, far = [], []
     for j in range(MAP):
-        row, colors = [], []
+        weights, colors = [], []
         for i in range(MAP):
-            w = weights(i, j, heights, slope)
-            row += [max(0, min(255, round(255 * c))) for c in w]
-            vary = 0.55 + 0.9 * sum(noise(i / 16 * 2**k, j / 16 * 2**k, 201 + k) * 0.5 ** (k + 1) for k in range(5))
-            colors += [code(vary * sum(w[k] * FAR[k][c] for k in range(4))) for c in range(3)]
-        control.append(row)
+            a, b, c, d = max(i - 1, 0), min(i + 1, MAP - 1), max(j - 1, 0), min(j + 1, MAP - 1)
+            steep = math.hypot((h[j][b] - h[j][a]) / (b - a), (h[d][i] - h[c][i]) / (d - c)) / step
+            near = 0.25 * (h[max(j - 4, 0)][i] + h[min(j + 4, MAP - 1)][i] + h[j][max(i - 4, 0)] + h[j][min(i + 4, MAP - 1)])
+            shares, color = ground(land_, at(i), at(j), h[j][i], steep, (near - h[j][i]) / 3)
+            weights += [max(0, min(255, round(255 * s))) for s in shares]
+            colors += [code(v) for v in color]
+        control.append(weights)
         far.append(colors)
     png(f"{folder}/terrain_weights.png", MAP, MAP, 4, control)
     png(f"{folder}/terrain_far.png", MAP, MAP, 3, far)
+
+
+def clouds(folder):
+    """What the sun shines through: fields of cloud with soft edges; the picture repeats."""
+    size, cells = 256, 5
+    rows = []
+    for j in range(size):
+        row = []
+        for i in range(size):
+            total, share = 0.0, 0.5
+            for k in range(5):
+                n = cells * 2**k
+                x, y = i * n / size, j * n / size
+                u, v = math.floor(x), math.floor(y)
+                wrap = lambda a, b: noise(a % n, b % n, 301 + k)
+                s, t = smooth(0, 1, x - u), smooth(0, 1, y - v)
+                total += share * ((wrap(u, v) * (1 - s) + wrap(u + 1, v) * s) * (1 - t) +
+                                  (wrap(u, v + 1) * (1 - s) + wrap(u + 1, v + 1) * s) * t)
+                share *= 0.5
+            row.append(round(255 * (1 - 0.82 * smooth(0.54, 0.63, total))))
+        rows.append(row)
+    png(f"{folder}/terrain_clouds.png", size, size, 1, rows)
+
+
+def main():
+    land_ = Land()
+    glb(f"{sys.argv[1]}/terrain.glb", land_)
+    maps(sys.argv[1], land_)
+    clouds(sys.argv[1])
 
 
 main()

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "formulas/weather/ground_tone.h"
+#include "formulas/weather/land_relief.h"
 #include "gpu/upload/wide_ground.h"
 #include "tests/gpu/gpu_fixture.h"
 
@@ -74,6 +75,43 @@ TEST_F(GroundToneTest, OfWideGroundIsThatOfTheFormulaAndOfSmallGroundNone)
         if (width_m > 142.0f) {
             EXPECT_GT(most, 0.08f);
         }
+    }
+}
+
+// A slope of 53 degrees seen from above: wide ground is bent over its relief, a small slope is flat.
+TEST_F(GroundToneTest, SteepWideGroundIsBentOverItsRelief)
+{
+    for (const float width_m : {400.0f, 40.0f}) {
+        Scene slope = scene_of({quad({-0.5f * width_m, 0, 0.5f * width_m}, {width_m, 0, 0}, {0, width_m, -0.75f * width_m})},
+                               {plain_material({0.2f, 0.3f, 0.1f})});
+        EXPECT_EQ(wide_ground(slope)[0], width_m > 142.0f);
+        renderer->load(slope, {});
+        Frame frame = from_above(0.5f * width_m, 1.0f);
+        frame.camera = look({0, 3.0f * width_m, 0.1f * width_m}, {0, 0, 0.1f * width_m});
+        frame.camera.orthographic_height_m = 0.5f * width_m;
+        frame.settings.aovs = {"normal", "position"};
+        const RenderResult bent = renderer->render(frame);
+        frame.look.ground_variation = 0.0f;
+        const RenderResult flat = renderer->render(frame);
+        const glm::vec3 plain(0.0f, 0.6f, 0.8f);
+        const float pixel_m = 0.5f * width_m / kSize / 0.6f;
+        float most = 0.0f;
+        for (int y = 4; y < kSize; y += 7) {
+            for (int x = 4; x < kSize; x += 7) {
+                const auto at = [&](const RenderResult& r, const char* name, int c) { return aov(r, name, x, y, c); };
+                const glm::vec3 p(at(bent, "position", 0), at(bent, "position", 1), at(bent, "position", 2));
+                const glm::vec3 expected =
+                    width_m > 142.0f ? shared::land_normal(plain, shared::slope_relief(p, pixel_m).flatter,
+                                                           shared::land_ribs(p, pixel_m), shared::land_relief_share(plain.y))
+                                     : plain;
+                for (int c = 0; c < 3; ++c) {
+                    EXPECT_NEAR(at(bent, "normal", c), expected[c], 0.01f) << width_m << " m at " << p.x << ", " << p.z;
+                    EXPECT_NEAR(at(flat, "normal", c), plain[c], 0.001f);
+                    most = std::max(most, std::abs(expected[c] - plain[c]));
+                }
+            }
+        }
+        EXPECT_EQ(most > 0.1f, width_m > 142.0f);
     }
 }
 

@@ -73,6 +73,33 @@ TEST_F(WetFilmTest, ALampOverAWetRoadIsALongStreak)
                                             << mixed.tall;
 }
 
+// Under an even sky: a wall of plaster that has drunk rain is darker by a quarter and more and hardly mirrors, while glaze keeps
+// its film.
+TEST_F(WetFilmTest, AWallThatDrinksIsDarkerAndHasLittleFilm)
+{
+    renderer->set_environment(constant_environment(1.0f));
+    struct Seen {
+        float light, mirrored;
+    };
+    const auto seen = [&](float porosity, float film) {
+        Scene scene = scene_of({quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0})}, {plain_material(glm::vec3(0.45f), 0.9f)});
+        scene.materials[0].weather.porosity = porosity;
+        scene.materials[0].weather.water_slope_damp = 0.0f;
+        renderer->load(scene, {});
+        Frame frame = wet(film);
+        frame.sky.sun_illuminance = 0.0f;
+        frame.camera = look({-4.0f, 0, 1.0f}, {0, 0, 0}, 0.3f);
+        frame.settings.aovs = {"specular_indirect", "reflection", "film"};
+        const RenderResult r = renderer->render(frame);
+        EXPECT_GT(aov(r, "film", kSide / 2, kSide / 2, 0), film > 0.0f ? 0.5f : -1.0f);
+        return Seen{pixel(r, kSide / 2, kSide / 2).g, aov(r, "reflection", kSide / 2, kSide / 2, 1)};
+    };
+    const Seen dry = seen(0.8f, 0.0f), drunk = seen(0.8f, 0.5f), glazed = seen(0.0f, 0.5f);
+    EXPECT_LT(drunk.light, 0.8f * dry.light);
+    EXPECT_GT(glazed.light, drunk.light);
+    EXPECT_LT(drunk.mirrored, 0.6f * glazed.mirrored) << drunk.mirrored << " " << glazed.mirrored;
+}
+
 // In a furnace nothing is brighter than its walls, and a white ground keeps most of it.
 TEST_F(WetFilmTest, AFurnaceIsNotOutshone)
 {

@@ -15,6 +15,7 @@
 #include "formulas/light/occlusion_points.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/sun_cookie.h"
+#include "formulas/weather/soaked_walls.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "gpu/outputs/light_parts_io.h"
@@ -393,8 +394,15 @@ void main()
                 // The film is not mixed into the surface: below it that is as rough as it was.
                 WeatherMoment below = frame.weather;
                 below.film_smoothness = 0.0;
-                m = apply_weather(dry, state, below, frame.look);
                 film = water_film(dry, state, frame.weather);
+                // A loop that ends at once where no wall drinks: a CPU takes both sides of a branch.
+                const float wall = state.film > 0.0 ? drinking_wall(g.base_normal.y, dry.porosity * (1.0 - dry.metallic)) : 0.0;
+                for (int once = 0; once < (wall > 0.0 ? 1 : 0); ++once) {
+                    const float along_m = dot(position.xz, vec2(-g.base_normal.z, g.base_normal.x));
+                    state.film = mix(state.film, soaked_share(state.film, along_m, position.y), wall);
+                    film.share *= film_not_drunk(wall, saturate(2.0 * frame.weather.rain));
+                }
+                m = apply_weather(dry, state, below, frame.look);
                 m = below_film(m, film.share);
                 if (TWO_LOBES) {
                     DryMaterial other = dry;

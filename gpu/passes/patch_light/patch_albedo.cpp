@@ -35,11 +35,24 @@ float film_of(const MaterialWeather& m)
     return m.film >= 0.0f ? m.film : 1.0f;
 }
 
+// Middles of the quarters of what snow_texel (formulas/weather/weather_maps.h) holds.
+constexpr std::array<float, 4> kQuarters{0.543f, 0.665f, 0.75f, 0.867f};
+
+// Cover of hoar as pixels have it, a mean over the map of its crystals (gpu/passes/surface/frost.glsl): of what is no
+// edge and as rough as ground is. By the amount itself the land beyond a white lawn was dark.
+float mean_frost(float amount)
+{
+    constexpr float kEdge = 0.1f;
+    float sum = 0.0f;
+    for (const float wide : kQuarters)
+        for (const float fine : kQuarters)
+            sum += shared::frost_cover(amount, shared::saturate(0.5f + 2.6f * (0.6f * wide + 0.4f * fine - 0.5f)), kEdge);
+    return sum / static_cast<float>(kQuarters.size() * kQuarters.size());
+}
+
 // Cover of snow, a mean over the two masks of the snow map.
 float mean_snow(float amount, float height_factor, float up, const MaterialWeather& m, float melt)
 {
-    // Middles of the quarters of what snow_texel (formulas/weather/weather_maps.h) holds.
-    constexpr std::array<float, 4> kQuarters{0.543f, 0.665f, 0.75f, 0.867f};
     float sum = 0.0f;
     for (const float mask : kQuarters) {
         for (const float detail : kQuarters) {
@@ -69,7 +82,7 @@ shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMom
     }
     state.film =
         std::sqrt(open) * shared::saturate(up + 1.0f - m.water_slope_damp) * film_of(m);
-    state.frost = w.frost * open * shared::saturate(up * 0.6f + 0.5f) * (1.0f - state.water);
+    state.frost = mean_frost(w.frost * open * shared::saturate(up * 0.6f + 0.5f)) * (1.0f - state.water);
     state.snow_smoothness = 0.3f;
     return state;
 }
@@ -99,7 +112,7 @@ shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::Weat
     }
     if (m.wetness != Wetness::None) state.water = std::max(state.water, under_water);
     state.film = shown.x * film_of(m);
-    state.frost = frost * (1.0f - state.water);
+    state.frost = mean_frost(frost) * (1.0f - state.water);
     state.snow_smoothness = 0.3f;
     return state;
 }

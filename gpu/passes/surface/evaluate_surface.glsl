@@ -12,6 +12,7 @@
 #include "formulas/light/layers.h"
 #include "formulas/light/second_lobe.h"
 #include "formulas/weather/ground_tone.h"
+#include "formulas/weather/land_relief.h"
 #include "gpu/passes/surface/beads.glsl"
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
@@ -30,6 +31,17 @@ float widened_by_curvature(float roughness, SurfaceInput at)
             frame.specular_aa_limit);
     const float alpha = roughness * roughness;
     return sqrt(sqrt(saturate(alpha * alpha + variance)));
+}
+
+// What steep wide ground has of relief, on it and on what covers it: snow fills half of it.
+void bend_over_land(inout vec3 normal, inout vec3 cover_normal, SurfaceInput at, float strength)
+{
+    const vec3 dx = at.position_dx, dy = at.position_dy;
+    const float width_m = sqrt(max(dot(dx, dx), dot(dy, dy)));
+    const float flatter = slope_relief(at.position, width_m).flatter;
+    const float ribs = land_ribs(at.position, width_m);
+    normal = land_normal(normal, flatter, ribs, strength);
+    cover_normal = land_normal(cover_normal, flatter, ribs, 0.5 * strength);
 }
 
 // The samples of a pixel share its footprint: each may read finer levels.
@@ -141,6 +153,9 @@ SurfaceData evaluate_surface(SurfaceInput at)
         const bool again = SURFACE_WEATHER == 0 || (WATER != 0u && !is_steep()) || !bumps_come_first();
         normal = normalize(to_world(f, again ? mapped_normal(at, f, shift) : mapped));
     }
+    // A loop that ends at once where ground is level: a CPU takes both sides of a branch.
+    const float land = (BESIDES & BESIDES_WIDE_GROUND) != 0u ? frame.look.ground_variation * land_relief_share(at.normal.y) : 0.0;
+    for (int once = 0; once < (land > 0.0 ? 1 : 0); ++once) bend_over_land(normal, cover.normal, at, land);
     shed_film(cover, normal);
     data.emission = vec3(0.0);
     if (SURFACE_EMISSION != 0) {

@@ -2,8 +2,9 @@
 #ifndef PETRICHOR_SURFACE_SNOW_GLSL
 #define PETRICHOR_SURFACE_SNOW_GLSL
 
-#include "formulas/weather/surface_weather.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/land_relief.h"
+#include "formulas/weather/surface_weather.h"
 #include "gpu/passes/surface/sets.glsl"
 #include "gpu/passes/surface/textures.glsl"
 
@@ -137,7 +138,9 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m
     SlopeRelief relief;
     if (slope_of_land) {
         const vec3 dx = at.position_dx, dy = at.position_dy;
-        relief = slope_relief(at.position, sqrt(max(dot(dx, dx), dot(dy, dy))));
+        const float width_m = sqrt(max(dot(dx, dx), dot(dy, dy)));
+        relief = with_gullies(slope_relief(at.position, width_m), at.position, width_m,
+                              frame.look.ground_variation * land_relief_share(at.normal.y));
         // Level ground holds all of it; it counts from where snow would slide.
         holds += (1.0 - smooth_edge(0.7, 0.85, at.normal.y)) * snow_holds(relief);
     }
