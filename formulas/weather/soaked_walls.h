@@ -26,7 +26,7 @@ SHARED_FN float soaked_share(float film, float along_m, float y_m)
 {
     const float streak = 0.6f * endless_noise(vec2(3.1f * along_m, 0.35f * y_m), 331u) +
                          0.4f * endless_noise(vec2(11.0f * along_m, 0.9f * y_m), 337u) - 0.5f;
-    const float full = saturate(film + 3.6f * streak * film * (1.0f - film));
+    const float full = saturate(film + 2.2f * streak * film * (1.0f - film));
     return 1.0f - (1.0f - full) * (1.0f - full);
 }
 

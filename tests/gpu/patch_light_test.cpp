@@ -345,6 +345,33 @@ TEST_F(PatchLightTest, AMaterialThatChangesChangesItsLight)
     }
 }
 
+// Hoar grows on crystals first, so that a third of it covers most of a lawn: patches send back what the pixels show.
+TEST_F(PatchLightTest, PatchesHaveTheHoarThatPixelsHave)
+{
+    const Scene scene = scene_of({quad({-8, 0, 8}, {16, 0, 0}, {0, 0, -16})}, {lambert(glm::vec3(0.1f))});
+    const auto patches = traced(scene);
+    renderer->load(scene, {});
+    for (const float amount : {0.2f, 0.35f, 0.6f}) {
+        shared::WeatherMoment weather{};
+        weather.frost = amount;
+        Frame frame;
+        frame.settings.width = frame.settings.height = 64;
+        frame.settings.samples = 1;
+        frame.settings.shelter = false;
+        frame.settings.aovs = {"frost"};
+        frame.weather.frost = amount;
+        frame.camera = look({0, 1.5f, 0.01f}, {0, 0, 0}, 0.9f);
+        const RenderResult r = renderer->render(frame);
+        float cover = 0.0f;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) cover += aov(r, "frost", x, y, 0) / 4096.0f;
+        EXPECT_GT(cover, amount + 0.1f);
+        const glm::vec3 white = glm::mix(glm::vec3(0.1f), glm::vec3(0.87f, 0.88f, 0.89f), 0.85f * cover);
+        const PatchLook hoary = patch_look(*patches, weather, {}, false);
+        for (const glm::vec3& albedo : hoary.albedo) EXPECT_NEAR(albedo.x, white.x, 0.07f) << amount << " " << cover;
+    }
+}
+
 // A white sill on a dark wall is white to the patches it is close to, though the patch below both is the mean of the two;
 // snow that lies on it makes what it sends white, rain that a porous stone drinks makes it darker.
 TEST_F(PatchLightTest, WhatIsCloseHasItsOwnMaterialUnderItsOwnWeather)

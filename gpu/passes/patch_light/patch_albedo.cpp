@@ -42,7 +42,7 @@ constexpr std::array<float, 4> kQuarters{0.543f, 0.665f, 0.75f, 0.867f};
 // edge and as rough as ground is. By the amount itself the land beyond a white lawn was dark.
 float mean_frost(float amount)
 {
-    constexpr float kEdge = 0.1f;
+    constexpr float kEdge = 0.125f;
     float sum = 0.0f;
     for (const float wide : kQuarters)
         for (const float fine : kQuarters)
