@@ -113,8 +113,8 @@ TEST(TwoLobeStart, SameNumbersForAnyThreads)
     }
 }
 
-// Slopes of a line, of which one lobe made narrower and wider finds no two: with the sun from the left
-// (-1 % of the RMSE of plain mips where the fit started so).
+// Slopes of a line, in which a fit that starts from one lobe made narrower and wider does not find two: 0.79 of
+// the RMSE of plain mips, 0.67 from the two.
 TEST(TwoLobeStart, StrokesGetTwoSlopes)
 {
     std::vector<ScoredMaps> all = fresh_maps(96, 33);
@@ -129,8 +129,7 @@ TEST(TwoLobeStart, StrokesGetTwoSlopes)
     const auto plain = bench.score({}), two = bench.score(prefilter_raw(maps->normal, maps->roughness, options));
     double sum = 0.0;
     for (std::size_t i = 0; i < plain.size(); ++i) sum += two[i].rmse / plain[i].rmse / static_cast<double>(plain.size());
-    printf("strokes: %f\n", sum);
-    EXPECT_LT(sum, 0.8);
+    EXPECT_LT(sum, 0.73);
 }
 
 }  // namespace
