@@ -110,6 +110,9 @@ void run(Arguments& a)
         throw Error("score: --picture and --protocol are two measures",
                     "Ask for one of them at a time.");
     }
+    if (a.protocol.drawn_seed != 1 && a.protocol.pictures != "drawn") {
+        throw Error("score: --drawn-seed is for --picture drawn", "Add --picture drawn, or leave the seed out.");
+    }
     if (a.protocol.lobes != 1 && a.protocol.pictures.empty()) {
         throw Error("score: --lobes is for --picture", "Add --picture quick, or leave --lobes out.");
     }
@@ -179,8 +182,10 @@ void add_texture_score(CLI::App& texture)
     app->add_option(
            "--picture", a->protocol.pictures,
            "score every rule by lit floors under a moving camera against supersampled ones: full "
-           "(18 views and lights) or quick (5)")
-        ->check(CLI::IsMember({"full", "quick"}));
+           "(18 views and lights), quick (5), or drawn (12 that no rule was chosen with)")
+        ->check(CLI::IsMember({"full", "quick", "drawn"}));
+    app->add_option("--drawn-seed", a->protocol.drawn_seed, "for --picture drawn: which views and lights")
+        ->check(CLI::Range(1, 1000000));
     app->add_option("--lobes", a->protocol.lobes,
                     "--picture: lobes of a texel that the rule picture in full quality may take")
         ->check(CLI::Range(1, 2));

@@ -18,31 +18,47 @@ using texproc::PictureScore;
 
 constexpr double kWorse = 0.02;  // so much more error than plain mips counts as worse
 
-struct Sums {
-    double rmse = 0.0, flicker = 0.0, worst = -1.0;
-    int worse = 0, cases = 0;
-    std::string worst_case;
-
-    void add(const std::string& material, const PictureScore& plain, const PictureScore& score)
-    {
-        if (!(plain.rmse > 0.0) || !(plain.flicker > 0.0)) return;  // nothing to win or lose
-        const double change = score.rmse / plain.rmse - 1.0;
-        rmse += change;
-        flicker += score.flicker / plain.flicker - 1.0;
-        worse += change > kWorse;
-        ++cases;
-        if (change <= worst) return;
-        worst = change;
-        worst_case = material + ", " + score.name;
-    }
-};
-
 std::string percent(double share)
 {
     char text[32];
     std::snprintf(text, sizeof text, "%+.1f %%", 100.0 * share);
     return text;
 }
+
+struct Mean {
+    double rmse = 0.0, flicker = 0.0;
+    int cases = 0;
+
+    void add(double of_rmse, double of_flicker)
+    {
+        rmse += of_rmse, flicker += of_flicker;
+        ++cases;
+    }
+    std::string text() const
+    {
+        if (!cases) return "-";
+        return percent(rmse / cases) + ", " + percent(flicker / cases);
+    }
+};
+
+struct Sums {
+    Mean all, paint, metal;
+    double worst = -1.0;
+    int worse = 0;
+    std::string worst_case;
+
+    void add(const std::string& material, bool on_metal, const PictureScore& plain, const PictureScore& score)
+    {
+        if (!(plain.rmse > 0.0) || !(plain.flicker > 0.0)) return;  // nothing to win or lose
+        const double change = score.rmse / plain.rmse - 1.0, livelier = score.flicker / plain.flicker - 1.0;
+        all.add(change, livelier);
+        (on_metal ? metal : paint).add(change, livelier);
+        worse += change > kWorse;
+        if (change <= worst) return;
+        worst = change;
+        worst_case = material + ", " + score.name;
+    }
+};
 
 // Plain mips, the rules and the truth side by side, a row a case.
 class Sheet {
@@ -117,7 +133,9 @@ void run_score_picture(const ProtocolRequest& request, const texproc::ReadOption
     });
     const std::vector<texproc::ScoredMaps> materials = requested_materials(request, reading);
     texproc::PictureOptions pictures =
-        request.pictures == "quick" ? texproc::reference_pictures() : texproc::all_pictures();
+        request.pictures == "quick"   ? texproc::reference_pictures()
+        : request.pictures == "drawn" ? texproc::drawn_pictures(static_cast<std::uint32_t>(request.drawn_seed))
+                                      : texproc::all_pictures();
     pictures.threads = threads;
     Sheet sheet(pictures, variants, request.sheet.empty() ? 0 : materials.size());
     std::vector<Sums> of_rule(variants.size());
@@ -153,8 +171,8 @@ void run_score_picture(const ProtocolRequest& request, const texproc::ReadOption
                 metals.push_back(chain);
             }
             for (std::size_t c = 0; c < scores.size(); ++c) {
-                of_rule[i].add(maps.name, plain[c], scores[c]);
-                row[i].add(maps.name, plain[c], scores[c]);
+                for (Sums* sums : {&of_rule[i], &row[i]})
+                    sums->add(maps.name, pictures.cases[c].metal, plain[c], scores[c]);
                 char numbers[96];
                 std::snprintf(numbers, sizeof numbers, "%.6f,%.6f,%.6f,%.6f\n", scores[c].rmse,
                               scores[c].flicker, plain[c].rmse, plain[c].flicker);
@@ -169,13 +187,12 @@ void run_score_picture(const ProtocolRequest& request, const texproc::ReadOption
     if (!request.sheet.empty()) sheet.write(request.sheet);
     std::cout << materials.size() << " materials, " << pictures.cases.size()
               << " cases each, against plain mips (below 0 is better)\n\n"
-              << "| rule | RMSE | flicker | worse by 2 % | worst |\n|---|---|---|---|---|\n";
+              << "| rule | RMSE, flicker | of paint | of metal | worse by 2 % | worst |\n|---|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < variants.size(); ++i) {
         const Sums& s = of_rule[i];
-        const int count = std::max(s.cases, 1);
-        std::cout << "| " << variants[i].name << " | " << percent(s.rmse / count) << " | "
-                  << percent(s.flicker / count) << " | " << s.worse << " of " << s.cases << " | "
-                  << percent(s.worst) << " (" << s.worst_case << ") |\n";
+        std::cout << "| " << variants[i].name << " | " << s.all.text() << " | " << s.paint.text() << " | "
+                  << s.metal.text() << " | " << s.worse << " of " << s.all.cases << " | " << percent(s.worst)
+                  << " (" << s.worst_case << ") |\n";
     }
     std::cout << "\n| material |";
     std::string rule = "|---|";
@@ -186,11 +203,7 @@ void run_score_picture(const ProtocolRequest& request, const texproc::ReadOption
     std::cout << "\n" << rule << "\n";
     for (std::size_t m = 0; m < materials.size(); ++m) {
         std::cout << "| " << materials[m].name << " |";
-        for (const Sums& s : of_material[m]) {
-            const int count = std::max(s.cases, 1);
-            std::cout << " " << percent(s.rmse / count) << ", " << percent(s.flicker / count)
-                      << " |";
-        }
+        for (const Sums& s : of_material[m]) std::cout << " " << s.all.text() << " |";
         std::cout << "\n";
     }
 }

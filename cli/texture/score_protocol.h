@@ -13,7 +13,8 @@ namespace petrichor::cli {
 /// `score --protocol` and `score --picture`: every rule on several materials.
 struct ProtocolRequest {
     std::string effort;              ///< full or quick; empty: not asked for
-    std::string pictures;            ///< the same, for lit pictures
+    std::string pictures;            ///< the same, or drawn, for lit pictures
+    int drawn_seed = 1;              ///< --picture drawn: of its views and lights
     std::vector<std::string> sets;   ///< roughness maps or folders
     std::vector<std::string> rules;  ///< names of variants to keep; empty: all
     int bits = 16;

@@ -349,6 +349,41 @@ TEST_F(GltfRewrite, TwoLobesStandBesideTheOne)
     EXPECT_GT(differ(channel(second, 1, 2), channel(surface, 1, 1)), 5) << "two lobes, not one twice";
 }
 
+// In full quality a surface is fitted to what it is by its metallic factor and map: what shines alone wants
+// other levels than what is diffuse too. Two materials that show the same maps as one and as the other part.
+TEST_F(GltfRewrite, MetalAndPaintHaveLevelsOfTheirOwn)
+{
+    dents = true;
+    side = 128;
+    GltfBuildOptions options;
+    options.images.prefilter.rule = "picture";
+    options.images.prefilter.quick = false;
+    const auto factor = [&](const char* metallic) {
+        std::string material = kOne;
+        material.insert(material.find("\"roughnessFactor\""), std::string("\"metallicFactor\":") + metallic + ",");
+        return material;
+    };
+    const auto surface = [&](const char* metallic) {
+        const GltfFile file = built(scene(factor(metallic)), options);
+        const JsonText& pbr = *file.json.find("materials")->at(0).find("pbrMetallicRoughness");
+        return image_bytes(file, basis(file, index(pbr.find("metallicRoughnessTexture")->find("index"))));
+    };
+    const auto paint = surface("0");
+    EXPECT_NE(paint, surface("1"));
+    EXPECT_EQ(paint, surface("0.001")) << "less than a fiftieth is none";
+    options.images.prefilter.quick = true;
+    EXPECT_EQ(surface("0"), surface("1")) << "quick knows no classes";
+}
+
+TEST_F(GltfRewrite, MaterialsPartByMetalOnlyWhereTheyAreFittedByIt)
+{
+    std::string paint = kOne;
+    paint.insert(paint.find("\"roughnessFactor\""), "\"metallicFactor\":0,");
+    const GltfFile file = read_gltf_file(scene(paint + "," + kOne));
+    EXPECT_EQ(plan_images(file, true).recipes.size(), 2u);
+    EXPECT_EQ(plan_images(file, true, 1, true).recipes.size(), 4u);
+}
+
 // What lets light through, and what has lighting of its own, is shaded with one.
 TEST_F(GltfRewrite, TwoLobesAreForOpaqueSurfaces)
 {

@@ -50,6 +50,27 @@ TEST(PictureYardstick, AFlatSurfaceHasNoError)
     }
 }
 
+// Nobody can have chosen a rule with them: each seed has its own, and the same again.
+TEST(PictureYardstick, DrawnPicturesAreNoneOfTheOthers)
+{
+    const PictureOptions a = drawn_pictures(1), again = drawn_pictures(1), b = drawn_pictures(2);
+    ASSERT_EQ(a.cases.size(), 12u);
+    int metal = 0;
+    for (const PictureCase& c : a.cases) metal += c.metal;
+    EXPECT_EQ(metal, 4);
+    for (std::size_t i = 0; i < a.lights.size(); ++i) {
+        EXPECT_EQ(a.lights[i].to_light, again.lights[i].to_light);
+        EXPECT_NE(a.lights[i].to_light, b.lights[i].to_light);
+        EXPECT_GT(a.lights[i].to_light[2], 0.2f) << "above the horizon";
+        for (const PictureOptions& known : {all_pictures(), design_pictures(), design_pictures(true)})
+            for (const PictureLight& light : known.lights) EXPECT_NE(a.lights[i].to_light, light.to_light);
+    }
+    for (std::size_t i = 0; i < a.views.size(); ++i) {
+        EXPECT_EQ(a.views[i].pitch_deg, again.views[i].pitch_deg);
+        EXPECT_NE(a.views[i].pitch_deg, b.views[i].pitch_deg);
+    }
+}
+
 TEST(PictureYardstick, MoreSamplesChangeLittle)
 {
     const ScoredMaps maps = material("mica", 3);

@@ -8,6 +8,7 @@
 #include "texproc/filter/area.h"
 #include "texproc/filter/resample.h"
 #include "texproc/material/base_share.h"
+#include "texproc/material/surface_class.h"
 
 namespace petrichor::texproc {
 
@@ -114,11 +115,13 @@ struct ImageMaker::Pair {
     Image normals;    // scaled
     Image roughness;  // one channel, times its factor
     int skipped = 0;  // levels that the surface does not have
+    SurfaceClass is = SurfaceClass::Both;
 };
 
 struct ImageMaker::Chains {
     RawImage normals, roughness;
     int bits = -1;
+    SurfaceClass is = SurfaceClass::Both;
     Prefiltered made;
 };
 
@@ -198,27 +201,35 @@ namespace {
 // The surface and its normals brought to one size: that of the normals where they are finer by
 // whole levels, so that what the surface cannot show of them counts too.
 template <class Pair>
-Pair to_pair(Image normals, const Image& surface, float scale, float factor, int threads)
+Pair to_pair(Image normals, const Image& surface, const ImageRecipe& recipe, const ImageMakingOptions& options)
 {
+    const int threads = options.threads;
     Pair pair;
     pair.roughness = channel_of(surface, 1);
-    for (float& value : pair.roughness.pixels) value *= factor;
+    for (float& value : pair.roughness.pixels) value *= recipe.roughness_factor;
+    if (fits_by_class(options.prefilter)) {
+        Image metallic = channel_of(surface, 2);
+        for (float& value : metallic.pixels) value *= recipe.metallic_factor;
+        pair.is = surface_class(metallic);
+    }
     pair.skipped = levels_between(normals, surface);
     if (pair.skipped) {
         pair.roughness = resized(pair.roughness, normals.width, normals.height, threads);
     } else {
         normals = resized(normals, surface.width, surface.height, threads);
     }
-    pair.normals = scaled_normals(std::move(normals), scale);
+    pair.normals = scaled_normals(std::move(normals), recipe.normal_scale);
     return pair;
 }
 
-PrefilterOptions pair_options(const ImageMakingOptions& options, const ImageRecipe& recipe)
+PrefilterOptions pair_options(const ImageMakingOptions& options, const ImageRecipe& recipe, SurfaceClass is)
 {
     PrefilterOptions to = prefilter_options(options.prefilter,
                                             {.joint = true, .bits = 8, .threads = options.threads});
     to.rebuild_z = true;
     to.lobes = recipe.lobes;
+    to.surface = is;
+    to.metal_colors = false;  // the base colour of a scene is made without the roughness
     if (recipe.normal_scale != 1.0f) to.bits = 0;  // the codes would be those of other normals
     return to;
 }
@@ -229,8 +240,8 @@ const Prefiltered& ImageMaker::chains(const ImageRecipe& recipe, const Pair& pai
 {
     Chains& last = last_[recipe.lobes == 2 ? 1 : 0];
     RawImage normals = to_raw(pair.normals, PixelType::U16), roughness = to_raw(pair.roughness, PixelType::U16);
-    const PrefilterOptions options = pair_options(options_, recipe);
-    if (last.bits == options.bits && last.normals.width == normals.width && last.normals.height == normals.height &&
+    const PrefilterOptions options = pair_options(options_, recipe, pair.is);
+    if (last.bits == options.bits && last.is == pair.is && last.normals.width == normals.width && last.normals.height == normals.height &&
         last.normals.bytes == normals.bytes && last.roughness.bytes == roughness.bytes)
         return last.made;
     last.made = {};
@@ -238,6 +249,7 @@ const Prefiltered& ImageMaker::chains(const ImageRecipe& recipe, const Pair& pai
     last.normals = std::move(normals);
     last.roughness = std::move(roughness);
     last.bits = options.bits;
+    last.is = pair.is;
     return last.made;
 }
 
@@ -267,8 +279,7 @@ std::vector<Image> ImageMaker::surface_levels(const ImageRecipe& recipe, bool pl
     }
     if (plain || recipe.normal < 0 || options_.prefilter.rule == "none") return levels;
     const Pair pair =
-        to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface,
-                      recipe.normal_scale, factor, options_.threads);
+        to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface, recipe, options_);
     const Prefiltered& made = chains(recipe, pair);
     const std::size_t skipped = static_cast<std::size_t>(pair.skipped);
     for (std::size_t k = skipped ? 0 : 1; k < levels.size(); ++k)
@@ -288,8 +299,7 @@ std::vector<Image> ImageMaker::normal_levels(const ImageRecipe& recipe) const
     const Image surface =
         resized(decode(static_cast<std::size_t>(recipe.surface), ColorSpace::Data, 3),
                 normals.width, normals.height, options_.threads);
-    const Pair pair = to_pair<Pair>(normals, surface, recipe.normal_scale, recipe.roughness_factor,
-                                    options_.threads);
+    const Pair pair = to_pair<Pair>(normals, surface, recipe, options_);
     const Prefiltered& made = chains(recipe, pair);
     for (std::size_t k = 1; k < levels.size(); ++k)
         levels[k] = scaled_normals(made.normal[k], 1.0f / recipe.normal_scale);
@@ -302,7 +312,7 @@ std::vector<Image> ImageMaker::second_levels(const ImageRecipe& recipe, bool pla
     const Image normals = decode(recipe.image, ColorSpace::Data, 3);
     const Image surface = resized(decode(static_cast<std::size_t>(recipe.surface), ColorSpace::Data, 3),
                                   normals.width, normals.height, options_.threads);
-    const Pair pair = to_pair<Pair>(normals, surface, recipe.normal_scale, recipe.roughness_factor, options_.threads);
+    const Pair pair = to_pair<Pair>(normals, surface, recipe, options_);
     const Prefiltered& made = chains(recipe, pair);
     const std::vector<Image> plain_roughness = plain_levels(pair.roughness, "scalar", mip_options(recipe));
     const float stored = options_.bake_roughness ? 1.0f : recipe.roughness_factor;
@@ -381,11 +391,10 @@ std::optional<PairPictures> ImageMaker::pictures(std::size_t number) const
     if (recipe.normal < 0 || options_.prefilter.rule == "none") return {};
     const Image surface = surface_of(recipe);
     const Pair pair =
-        to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface,
-                      recipe.normal_scale, recipe.roughness_factor, options_.threads);
+        to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface, recipe, options_);
     return PairPictures{
         {to_raw(pair.normals, PixelType::U16), to_raw(pair.roughness, PixelType::U16),
-         pair_options(options_, recipe), build_pictures(options_.threads)},
+         pair_options(options_, recipe, pair.is), build_pictures(options_.threads, pair.is)},
         level_sizes(pair.normals.width, pair.normals.height),
         pixel_base_shares(pair.normals, options_.threads)};
 }

@@ -16,6 +16,12 @@
 
 namespace petrichor::texproc {
 
+/// Whether surfaces are made for what they are, paint or metal (PrefilterOptions::surface).
+inline bool fits_by_class(const PrefilterChoice& choice)
+{
+    return choice.rule == "picture" && !choice.quick;
+}
+
 struct ImageMakingOptions {
     PrefilterChoice prefilter;
     bool bake_roughness =

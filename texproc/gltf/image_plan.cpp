@@ -153,7 +153,10 @@ bool may_have_two_lobes(const JsonText& material)
 
 class Planner {
 public:
-    Planner(const GltfFile& file, bool bake, int lobes) : file_(file), bake_(bake), lobes_(lobes) {}
+    Planner(const GltfFile& file, bool bake, int lobes, bool by_class)
+        : file_(file), bake_(bake), lobes_(lobes), by_class_(by_class)
+    {
+    }
 
     ImagePlan plan()
     {
@@ -195,6 +198,7 @@ private:
     const GltfFile& file_;
     bool bake_;
     int lobes_;
+    bool by_class_;
     ImagePlan plan_;
     std::set<std::size_t> kept_;
 };
@@ -254,6 +258,7 @@ void Planner::plan_material(std::size_t number, const JsonText& material)
                 recipe.normal = image(normal);
                 recipe.normal_scale = scale;
                 recipe.roughness_factor = roughness;
+                if (by_class_) recipe.metallic_factor = metallic;
             }
         } else if (&found == base) {
             recipe.alpha_covers = mode != "OPAQUE";
@@ -275,6 +280,7 @@ void Planner::plan_material(std::size_t number, const JsonText& material)
             recipe.surface = image(surface);
             recipe.normal_scale = scale;
             recipe.roughness_factor = roughness;
+            if (by_class_) recipe.metallic_factor = metallic;
         }
         plan_.slots.push_back({number, found.keys, texture, add(recipe)});
     }
@@ -335,9 +341,9 @@ int source_image(const GltfFile& file, std::size_t texture)
     return static_cast<int>(*image);
 }
 
-ImagePlan plan_images(const GltfFile& file, bool bake_roughness, int lobes)
+ImagePlan plan_images(const GltfFile& file, bool bake_roughness, int lobes, bool by_class)
 {
-    return Planner(file, bake_roughness, lobes).plan();
+    return Planner(file, bake_roughness, lobes, by_class).plan();
 }
 
 }  // namespace petrichor::texproc

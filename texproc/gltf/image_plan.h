@@ -61,9 +61,10 @@ struct ImagePlan {
 /// Reads the materials of a scene; no pixels.
 ///
 ///   bake_roughness  may put the roughness factor of a material into its image
+///   by_class        surfaces and their normals depend on how much of the material is metal
 ///   lobes           2: opaque materials with normals and roughness that lie alike get kTwoLobes as well
 ///   throws          Error for an index that points outside its list
-ImagePlan plan_images(const GltfFile& file, bool bake_roughness, int lobes = 1);
+ImagePlan plan_images(const GltfFile& file, bool bake_roughness, int lobes = 1, bool by_class = false);
 
 /// The image that a texture shows as PNG, JPEG or WebP; -1: none, or it brings its own levels.
 int source_image(const GltfFile& file, std::size_t texture);

@@ -93,7 +93,8 @@ public:
           file_(read_gltf_file(input)),
           source_(file_),
           options_(settled(options, source_)),
-          plan_(plan_images(source_, options_.images.bake_roughness, options_.images.prefilter.lobes)),
+          plan_(plan_images(source_, options_.images.bake_roughness, options_.images.prefilter.lobes,
+                            fits_by_class(options_.images.prefilter))),
           maker_(source_, plan_, options_.images)
     {
         report_.notes = plan_.notes;

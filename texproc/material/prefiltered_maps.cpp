@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "texproc/material/shipped.h"
+#include "texproc/material/surface_class.h"
 #include "texproc/prefilter/picture.h"
 #include "texproc/prefilter/stored.h"
 
@@ -46,14 +47,7 @@ SurfaceClass class_of(const SourceMaps& maps)
     const RawImage* map = maps.find("metallic");
     if (!map) return SurfaceClass::Paint;
     if (map->channels != 1) return SurfaceClass::Both;
-    const Image metallic = to_image(*map, ColorSpace::Data);
-    double sum = 0.0;
-    for (const float m : metallic.pixels) sum += static_cast<double>(std::clamp(m, 0.0f, 1.0f));
-    const double mean = sum / static_cast<double>(metallic.pixels.size());
-    constexpr double kFew = 0.02;
-    return mean < kFew         ? SurfaceClass::Paint
-           : mean > 1.0 - kFew ? SurfaceClass::Metal
-                               : SurfaceClass::Both;
+    return surface_class(to_image(*map, ColorSpace::Data));
 }
 
 }  // namespace

@@ -62,6 +62,9 @@ PictureOptions reference_pictures();
 /// Those, with the light of the sky beside the sun, a sky alone, metal from the side and behind, a
 /// floor from above, and plain trilinear filtering.
 PictureOptions all_pictures();
+/// Twelve with views and lights drawn from a seed: none is among those that a rule looks at, or was chosen
+/// with. Two thirds on paint, the others on metal.
+PictureOptions drawn_pictures(std::uint32_t seed);
 /// Small ones with other lights, views and places: what the rule picture checks itself on. A ring of
 /// suns, low and high, some with a sky, a window and a sky alone, on paint and on metal, and one view
 /// of one tap; quick: four suns on paint and a window, two views less, of any class.

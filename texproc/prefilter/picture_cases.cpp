@@ -1,5 +1,8 @@
 // Which pictures are taken: views, lights, and what is tried under them.
+#include <cmath>
 #include <iterator>
+#include <numbers>
+#include <random>
 #include <string>
 
 #include "texproc/prefilter/picture.h"
@@ -108,6 +111,47 @@ PictureOptions design_pictures(bool quick, SurfaceClass surface)
         if (surface != SurfaceClass::Paint) {
             for (int sun = 0; sun < kSuns; ++sun) add(kSuns + sun, sun % 3 == 2, true);
             add(kSkyAlone, false, true);
+        }
+    }
+    return o;
+}
+
+PictureOptions drawn_pictures(std::uint32_t seed)
+{
+    std::mt19937 dice(seed);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(dice()) / 4294967296.0;
+    };
+    PictureOptions o;
+    o.frames = 4;
+    o.samples = 10;
+    o.seed = seed;
+    constexpr int kViews = 4;
+    for (int view = 0; view < kViews; ++view) {
+        const std::string number = std::to_string(view + 1);
+        const double turned = between(0.0, 2.0 * std::numbers::pi), step = between(0.01, 0.03);
+        o.views.push_back({.name = "view " + number,
+                           .height_m = between(1.1, 4.0),
+                           .pitch_deg = between(11.0, 50.0),
+                           .field_of_view_deg = between(20.0, 40.0),
+                           .width = 200,
+                           .rows = 80,
+                           .step_right_m = step * std::cos(turned),
+                           .step_ahead_m = step * std::sin(turned)});
+        // Two lights on paint, one on metal, which would be black under a sun alone from most sides.
+        for (const bool metal : {false, false, true}) {
+            const double around = between(0.0, 2.0 * std::numbers::pi);
+            const double up = between(15.0, 65.0) * std::numbers::pi / 180.0;
+            const bool window = !metal && between(0.0, 1.0) < 0.25;
+            const bool sky = metal || (!window && between(0.0, 1.0) < 0.5);
+            const std::string name = (window ? "window " : "sun ") + std::to_string(o.lights.size() + 1);
+            o.cases.push_back({view, static_cast<int>(o.lights.size()), metal});
+            o.lights.push_back({.name = name,
+                                .to_light = {static_cast<float>(std::cos(around) * std::cos(up)),
+                                             static_cast<float>(std::sin(around) * std::cos(up)),
+                                             static_cast<float>(std::sin(up))},
+                                .alpha = window ? static_cast<float>(between(0.08, 0.14)) : 0.0f,
+                                .sky = sky ? static_cast<float>(between(0.05, 0.2)) : 0.0f});
         }
     }
     return o;

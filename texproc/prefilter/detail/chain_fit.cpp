@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/portable_math.h"
 #include "texproc/prefilter/detail/chain_fit_kernel.h"
+#include "texproc/prefilter/detail/two_lobe_start.h"
 
 namespace petrichor::texproc::detail {
 
@@ -19,8 +20,8 @@ namespace {
 
 constexpr std::size_t kMostTexels = 256 * 256;
 constexpr int kLeastSide = 8;
-// Of a level: pixels drawn for each texel, steps of a pass.
-constexpr std::size_t kPixelsPerTexel = 30, kSteps = 250;
+// Of a level: pixels drawn for each texel, of one lobe and of two, steps of a pass.
+constexpr std::size_t kPixelsPerTexel = 30, kPixelsOfTwo = 60, kSteps = 250;
 // How the pixels lie. Views that are one picture have one exposure, so what counts of its error is where
 // a highlight lies in it; wide, tall: how far they look past its middle, degrees.
 struct Layout {
@@ -40,13 +41,14 @@ struct Stage {
     float first_rate, last_rate, worse;
 };
 constexpr Stage kBold{2, 0.003f, 0.00003f, 0.0f}, kCareful{2, 0.0015f, 0.00003f, 10.0f};
+// Two lobes have farther to go.
+constexpr Stage kBoldTwo{3, 0.006f, 0.00003f, 0.0f};
 constexpr float kClearlyWorse = 0.02f;
 constexpr float kFlicker =
     0.5f;  // what changes between two moments counts so much beside all of the error
 constexpr float kKeep = 0.9f, kKeepSquare = 0.99f;  // of Adam (Kingma & Ba 2015)
 constexpr float kNothing2 = 3e-6f;                  // a mean square of errors that nobody sees
 constexpr float kWorseMetal = 2.0f;
-constexpr float kApart = 0.25f;  // how far the roughness of two lobes lies from that of one at first, a share of what it can
 constexpr float kLeastLobe = 0.02f;  // the share of a lobe stays above: what has no part finds no way back
 constexpr float kDegree = 0.0174532925f, kTurn = 6.28318531f;
 
@@ -266,21 +268,25 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
     for (std::size_t i = 0; i < pools_.size(); ++i) draw(pools_[i], i);
 }
 
-// Half of the light each, one lobe narrower and one wider: from two that are the same no slope would lead
-// them apart. Levels that are not fitted keep two that are the same.
+// From two that are the same no slope would lead them apart. Levels that are not fitted keep such.
 void ChainFit::start_two(std::size_t k)
 {
     std::vector<FitTexel>& texels = texels_[k];
-    second_[k].resize(texels.size());
     second_mean_[k].resize(mean_[k].size());
     second_square_[k].resize(mean_[k].size());
+    for (const FitTexel& t : texels) second_[k].push_back({{t.n[0], t.n[1], t.n[2]}, t.stored});
+    if (!is_fitted(k)) return;
+    std::vector<Texel> one;
+    for (const FitTexel& t : texels) one.push_back({{t.n[0], t.n[1], t.n[2]}, t.stored});
+    const std::vector<TwoLobeStart> starts = start_two_lobes(plain_, k, one, options_);
     for (std::size_t i = 0; i < texels.size(); ++i) {
-        FitTexel& t = texels[i];
-        second_[k][i] = {{t.n[0], t.n[1], t.n[2]}, t.stored};
-        if (!is_fitted(k)) continue;
-        const float p = perceptual(t.stored, options_);
-        t.stored = stored_value(p - kApart * p, options_);
-        second_[k][i].stored = stored_value(p + kApart * std::min(p, 1.0f - p), options_);
+        for (int c = 0; c < 3; ++c) {
+            texels[i].n[c] = starts[i].n[0][c];
+            second_[k][i].n[c] = starts[i].n[1][c];
+        }
+        texels[i].stored = stored_value(starts[i].p[0], options_);
+        second_[k][i].stored = stored_value(starts[i].p[1], options_);
+        texels[i].of_second = std::clamp(starts[i].second, kLeastLobe, 1.0f - kLeastLobe);
     }
 }
 
@@ -293,7 +299,7 @@ void ChainFit::draw(Pool& pool, std::size_t number)
         static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     const std::size_t share = pool.fine < first_ ? 2 : 1;
     const std::size_t enough =
-        std::max(texels * kPixelsPerTexel / (share * pixels_), layout_.least_views);
+        std::max(texels * (two() ? kPixelsOfTwo : kPixelsPerTexel) / (share * pixels_), layout_.least_views);
     pool.pictures.resize(enough / layout_.views);
     pool.views.resize(pool.pictures.size() * layout_.views);
     pool.pixels.resize(pool.views.size() * pixels_);
@@ -565,7 +571,8 @@ void ChainFit::fit(const Stage& stage)
     for (std::size_t pass = 0, done = 0; pass < stage.passes; ++pass) {
         shuffle(steps);
         for (Pool& pool : pools_) {
-            if (!(stage.worse > 0.0f)) break;  // weighed as it was drawn
+            // Weighed as it was drawn; where two lobes start, little is known of where they end.
+            if (!(stage.worse > 0.0f) && (!two() || pass == 0)) break;
             parallel_for(pool.pictures.size(), options_.threads,
                          [&](std::size_t i) { weigh(pool, pool.pictures[i], stage.worse); });
         }
@@ -614,7 +621,7 @@ bool fit_chain(const Levels& plain, const PrefilterOptions& options, Prefiltered
 {
     ChainFit fit(plain, options, chain);
     if (!fit.worth()) return false;
-    fit.fit(kBold);
+    fit.fit(options.lobes == 2 ? kBoldTwo : kBold);
     fit.store(chain);
     if (options.surface != SurfaceClass::Metal) return true;
     if (bold) bold();

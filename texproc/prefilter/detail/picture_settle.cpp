@@ -70,7 +70,7 @@ void settle_fit(const PictureBench& bench, const std::vector<PictureScore>& plai
 {
     // Levels that are fitted, which are small, before and after.
     const std::size_t levels = chain.roughness.size();
-    if (options.joint && options.surface != SurfaceClass::Paint) {
+    if (options.joint && options.metal_colors && options.surface != SurfaceClass::Paint) {
         chain.metal_share.resize(levels);
         for (std::size_t k = 1; k < levels; ++k)
             chain.metal_share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,
