@@ -205,13 +205,13 @@ std::uint32_t made_for_falls(std::size_t count, std::uint32_t& before)
     return made;
 }
 
-// The weather that pipelines of surfaces are made for. They know of frost wherever they know of snow, and of snow where
-// some has begun to gather below frost: for two look-ups more a film through a winter asks for a third of them.
+// The weather that pipelines of surfaces are made for: where some snow has begun to gather below frost, those of snow
+// with frost do for the few frames before it is seen. Frost stays a kind of its own: its two readings of a map are a
+// seventh of the time of a surface in snow.
 VisibleWeather made_for(const VisibleWeather& weather, const Frame& frame)
 {
     VisibleWeather made = weather;
     made.snow = weather.snow || (weather.frost && frame.weather.snow_depth_m > 0.0f);
-    made.frost = weather.frost || made.snow;
     return made;
 }
 
