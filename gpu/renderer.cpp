@@ -462,7 +462,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         lamp_shadows.forget();
     }
     if (snow && snow->lay(frame)) {
-        scene->lay(device, snow->vertices(), snow->covered());
+        scene->lay(device, snow->laid());
         depth_maps.shadow_valid.fill(false);
     }
     const Light* scene_sun = nullptr;

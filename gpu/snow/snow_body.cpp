@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "formulas/light/patch_cells.h"
 #include "formulas/weather/snow_body.h"
 #include "formulas/weather/surface_weather.h"
 
@@ -14,53 +13,15 @@ namespace {
 using glm::vec3;
 
 constexpr float kThin_m = 0.012f;  // less than this everywhere is drawn as a cover alone
-constexpr float kApart = 0.4f;     // of a patch's cell, between the places whose depths are blended
-// By binomial weights: patches are squares, and what lies on them is not.
-constexpr int kSide = SnowBody::kAround;
-constexpr std::array<float, kSide> kShare{1.0f / 16, 4.0f / 16, 6.0f / 16, 4.0f / 16, 1.0f / 16};
 constexpr float kTallest_m = scene::kDeepestSnow_m * 1.4f;
 
 constexpr float kCovers_m = 0.01f;  // caps so high over a triangle of the scene stand for it
 
-constexpr float kHides_m = 0.02f;      // .. and so high, upright within this, ..
-constexpr float kUpright_m = 0.001f;
-constexpr float kNear_m = 1.5f;        // .. hide it from eyes that have none around so far ..
-constexpr float kOverIt_m = 0.1f;      // .. and stand so high over it
+constexpr float kSunk_m = 0.002f;   // .. and so deep below it are not seen
 
-constexpr int kMiddle = kSide * kSide / 2;
-
-// The leaf that lies at a point and faces up; as place_leaf() of gpu/frame/place.glsl. Its number and
-// level, kNoPatch where there is none.
-struct Leaf {
-    std::uint32_t number = shared::kNoPatch;
-    int level = 0;
-};
-
-Leaf leaf_at(const PlaceShape& shape, const vec3& place)
-{
-    const shared::PatchGrid& grid = shape.grid;
-    constexpr int kUp = 2;
-    const glm::ivec3 cell = shared::patch_cell(
-        place + vec3(0.0f, 0.06f * grid.cell_m, 0.0f), 1.0f / grid.cell_m);
-    for (int level = static_cast<int>(grid.levels) - 1; level >= 0; --level) {
-        const shared::PatchKey key = shared::patch_key(
-            glm::ivec3(cell.x >> level, cell.y >> level, cell.z >> level), kUp, level);
-        std::uint32_t slot = shared::patch_key_hash(key) & grid.table_mask;
-        bool inner = false;
-        for (int probe = 0; probe < 64; ++probe) {
-            const glm::uvec4& entry = shape.table[slot];
-            if (entry.z == shared::kNoPatch) break;
-            if (entry.x == key.low && entry.y == key.high) {
-                inner = entry.z >= grid.patches;
-                if (!inner) return {entry.z, level};
-                break;
-            }
-            slot = (slot + 1) & grid.table_mask;
-        }
-        if (!inner) return {};
-    }
-    return {};
-}
+// Snow hides what is deep below it from eyes that have none around so far and stand so high over it.
+constexpr float kNear_m = 1.5f;
+constexpr float kOverIt_m = 0.1f;
 
 std::uint8_t code(float share)
 {
@@ -89,6 +50,16 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
         covered_.push_back({from.instance, from.primitive, std::vector<std::uint8_t>(last)});
         covering_.push_back(static_cast<std::uint32_t>(&from - caps_->parts.data()));
     }
+    const scene::SnowLevels& levels = caps_->levels;
+    for (const scene::SnowLevels::Piece& piece : levels.pieces) {
+        std::vector<std::uint32_t> points;
+        for (std::uint32_t k = 0; k < piece.levels[0].index_count; ++k)
+            points.push_back(caps_->corner_points[levels.indices[piece.levels[0].first_index + k]]);
+        std::sort(points.begin(), points.end());
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        piece_points_.push_back(std::move(points));
+    }
+    for (const scene::SnowCaps::Point& point : caps_->points) lowest_m_ = std::min(lowest_m_, point.base_m.y);
     corners_.reserve(caps_->indices.size());
     for (const std::uint32_t corner : caps_->indices) corners_.push_back(caps_->corner_points[corner]);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> ways;
@@ -101,48 +72,23 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
         if (way != 0) inner_[edge.first] = inner_[edge.second] = 0;
 }
 
-void SnowBody::find_patches(const PlaceShape& shape)
-{
-    patches_.clear();
-    patches_.reserve(caps_->points.size());
-    for (const scene::SnowCaps::Point& point : caps_->points) {
-        const Leaf own = leaf_at(shape, point.base_m);
-        const float step =
-            kApart * shape.grid.cell_m * static_cast<float>(std::uint32_t{1} << own.level);
-        Around around;
-        for (int k = 0; k < kSide * kSide; ++k) {
-            const vec3 way(step * static_cast<float>(k % kSide - kSide / 2), 0.0f,
-                           step * static_cast<float>(k / kSide - kSide / 2));
-            const std::uint32_t there = own.number == shared::kNoPatch || k == kMiddle
-                                            ? own.number
-                                            : leaf_at(shape, point.base_m + way).number;
-            around[static_cast<std::size_t>(k)] = there == shared::kNoPatch ? own.number : there;
-        }
-        patches_.push_back(around);
-    }
-}
-
 std::vector<float> SnowBody::depths(const Frame& frame)
 {
     const shared::WeatherMoment& w = frame.weather;
-    std::vector<float> depths;
-    depths.reserve(caps_->points.size());
     const bool placed = frame.place && frame.place->shape->grid.levels > 0;
-    if (placed && shape_ != frame.place->shape) {
-        shape_ = frame.place->shape;
-        find_patches(*shape_);
+    const float open_m = placed && !frame.place->open.empty() ? frame.place->open[2].z : w.snow_depth_m;
+    if (placed && patches_.shape() != frame.place->shape) {
+        std::vector<vec3> places;
+        for (const scene::SnowCaps::Point& point : caps_->points) places.push_back(point.base_m);
+        patches_.find(frame.place->shape, places);
     }
-    for (std::size_t i = 0; i < caps_->points.size(); ++i) {
-        float depth = placed && !frame.place->open.empty() ? frame.place->open[2].z : w.snow_depth_m;
-        if (placed && patches_[i][kMiddle] != shared::kNoPatch) {
-            depth = 0.0f;
-            for (std::size_t k = 0; k < patches_[i].size(); ++k) {
-                depth += kShare[k % kSide] * kShare[k / kSide] *
-                         frame.place->states[std::size_t{patches_[i][k]} * PLACE_STATE_TEXELS + 2].z;
-            }
-        }
-        depths.push_back(depth * shared::snow_line_factor(caps_->points[i].base_m, w.snow_start_height_m,
-                                                          w.snow_height_blend_m, frame.look.snow_line_ragged));
+    std::vector<float> depths = placed ? patches_.depths_m(*frame.place, open_m) : std::vector<float>(caps_->points.size(), open_m);
+    // Most scenes lie above the line by far, and it runs up and down by no more than this.
+    const float whole_m = w.snow_start_height_m + w.snow_height_blend_m * (1.0f + 2.0f * std::max(frame.look.snow_line_ragged, 0.0f));
+    if (lowest_m_ > whole_m) return depths;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        depths[i] *= shared::snow_line_factor(caps_->points[i].base_m, w.snow_start_height_m, w.snow_height_blend_m,
+                                              frame.look.snow_line_ragged);
     }
     return depths;
 }
@@ -165,11 +111,13 @@ bool SnowBody::lay(const Frame& frame)
     laid_ = key;
     lies_ = false;
     if (!key.wanted) return lay_before;
-    const scene::SnowShape shape = scene::snow_shape(*caps_, depths(frame));
+    const std::vector<float> depth_m = depths(frame);
+    choose_levels(depth_m);
+    const scene::SnowShape shape = scene::snow_shape(*caps_, depth_m, drawn_);
     lies_ = shape.thickest_m > kThin_m;
     if (!lies_) return lay_before;
     lift_m_ = 0.0f;
-    for (std::size_t i = 0; i < overlay_.vertices.size(); ++i) {
+    for (const std::uint32_t i : drawn_corners_) {
         const std::uint32_t point = caps_->corner_points[i];
         Vertex& v = overlay_.vertices[i];
         v.position = shape.positions[point];
@@ -182,9 +130,76 @@ bool SnowBody::lay(const Frame& frame)
         v.tangent = glm::vec4(unit * (1.0f + lift), v.tangent.w);
         v.weather[3] = std::min<std::uint8_t>(code(shared::snow_body_code(shape.deep_m[point])), 254);
     }
-    top_m_ = shape.positions;
+    fill_indices(shape);
     find_covered(shape);
+    top_m_ = shape.positions;
     return true;
+}
+
+// By the depths alone: a frame is the same whatever was laid before.
+void SnowBody::choose_levels(const std::vector<float>& depth_m)
+{
+    const scene::SnowLevels& levels = caps_->levels;
+    const auto [least_of_all, most_of_all] = std::minmax_element(depth_m.begin(), depth_m.end());
+    const auto level_at = [](float least_m) { return static_cast<std::uint8_t>(scene::SnowLevels::level_at(least_m)); };
+    std::vector<std::uint8_t> chosen(piece_points_.size(), level_at(*least_of_all));
+    const bool alike = level_at(*least_of_all) == level_at(*most_of_all);
+    for (std::size_t i = 0; i < chosen.size() && !alike; ++i) {
+        float least_m = *most_of_all;
+        for (const std::uint32_t point : piece_points_[i]) least_m = std::min(least_m, depth_m[point]);
+        chosen[i] = level_at(least_m);
+    }
+    if (chosen == levels_) return;
+    levels_ = std::move(chosen);
+    drawn_.points.assign(caps_->points.size(), 0);
+    drawn_.triangles.clear();
+    drawn_indices_.clear();
+    drawn_corners_.clear();
+    std::vector<std::uint8_t> known(caps_->corner_points.size(), 0);
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+        const scene::SnowLevels::Range& range = levels.pieces[i].levels[levels_[i]];
+        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k) {
+            const std::uint32_t corner = levels.indices[k], point = caps_->corner_points[corner];
+            drawn_indices_.push_back(corner);
+            drawn_.triangles.push_back(point);
+            drawn_.points[point] = scene::DrawnSnow::kDrawn;
+            known[corner] = 1;
+        }
+    }
+    for (std::uint32_t corner = 0; corner < known.size(); ++corner)
+        if (known[corner] != 0) drawn_corners_.push_back(corner);
+    for (const std::uint32_t corner : drawn_corners_) {
+        const scene::SnowCaps::Point& point = caps_->points[caps_->corner_points[corner]];
+        for (const std::uint32_t other : {point.beyond, point.below})
+            if (other != scene::SnowCaps::kNone) drawn_.points[other] = std::max(drawn_.points[other], scene::DrawnSnow::kBeside);
+    }
+}
+
+// Triangles that lie below the ground all over are not seen; and where caps are as thin as that the ground throws their shadow.
+void SnowBody::fill_indices(const scene::SnowShape& shape)
+{
+    counts_.assign(caps_->parts.size(), 0);
+    hidden_.resize(overlay_.indices.size() / 3);
+    std::vector<std::uint8_t> out(caps_->points.size());
+    constexpr std::uint8_t kSunk = 0x80;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const float lift = shape.positions[i].y - caps_->points[i].base_m.y;
+        out[i] = static_cast<std::uint8_t>((lift < -kSunk_m ? kSunk : 0) | (lift > kCovers_m ? 0 : Covered::kFromSun));
+    }
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+        const scene::SnowLevels::Piece& piece = caps_->levels.pieces[i];
+        const std::uint32_t first = caps_->parts[piece.part].first_index;
+        std::uint32_t& count = counts_[piece.part];
+        for (const std::size_t end = k + piece.levels[levels_[i]].index_count; k < end; k += 3) {
+            const std::uint32_t* point = drawn_.triangles.data() + k;
+            const auto all = static_cast<std::uint8_t>(out[point[0]] & out[point[1]] & out[point[2]]);
+            if ((all & kSunk) != 0) continue;
+            std::copy_n(drawn_indices_.data() + k, 3, overlay_.indices.data() + first + count);
+            hidden_[(first + count) / 3] = all;
+            count += 3;
+        }
+    }
 }
 
 // Points that lie deep below snow that stands upright over them, and whose neighbours do: an eye beside others may look under
@@ -194,12 +209,13 @@ std::vector<std::uint8_t> SnowBody::hidden_points(const scene::SnowShape& shape)
     std::vector<std::uint8_t> deep = inner_;
     for (std::size_t i = 0; i < deep.size(); ++i) {
         const vec3 lift = shape.positions[i] - caps_->points[i].base_m;
-        const bool upright = std::max(std::abs(lift.x), std::abs(lift.z)) < kUpright_m;
-        if (!(lift.y > kHides_m) || !upright) deep[i] = 0;
+        const bool upright = std::max(std::abs(lift.x), std::abs(lift.z)) < scene::kUpright_m;
+        // What coarser levels leave out lies deep, and so does all around it.
+        if (drawn_.points[i] == scene::DrawnSnow::kDrawn && (!(lift.y > scene::kHidesGround_m) || !upright)) deep[i] = 0;
     }
     std::vector<std::uint8_t> hidden = deep;
-    for (std::size_t k = 0; k + 2 < corners_.size(); k += 3) {
-        const std::uint32_t a = corners_[k], b = corners_[k + 1], c = corners_[k + 2];
+    for (std::size_t k = 0; k + 2 < drawn_.triangles.size(); k += 3) {
+        const std::uint32_t a = drawn_.triangles[k], b = drawn_.triangles[k + 1], c = drawn_.triangles[k + 2];
         if ((deep[a] & deep[b] & deep[c]) == 0) hidden[a] = hidden[b] = hidden[c] = 0;
     }
     return hidden;
@@ -210,7 +226,7 @@ void SnowBody::find_covered(const scene::SnowShape& shape)
     std::vector<std::uint8_t> from = hidden_points(shape);
     for (std::size_t i = 0; i < from.size(); ++i) {
         from[i] = from[i] != 0 ? Covered::kFromEye : std::uint8_t{0};
-        if (shape.positions[i].y - caps_->points[i].base_m.y > kCovers_m) from[i] |= Covered::kFromSun;
+        if (drawn_.points[i] != scene::DrawnSnow::kDrawn || shape.positions[i].y - caps_->points[i].base_m.y > kCovers_m) from[i] |= Covered::kFromSun;
     }
     for (std::size_t i = 0; i < covering_.size(); ++i) {
         const scene::SnowCaps::Part& part = caps_->parts[covering_[i]];
@@ -230,22 +246,17 @@ bool SnowBody::lies_below(const vec3& eye_m) const
 {
     if (!lies_) return false;
     for (std::size_t i = 0; i < top_m_.size(); ++i) {
+        if (drawn_.points[i] != scene::DrawnSnow::kDrawn) continue;
         const vec3 way = eye_m - top_m_[i];
         if (way.x * way.x + way.z * way.z < kNear_m * kNear_m && way.y < kOverIt_m && eye_m.y > caps_->points[i].base_m.y - kTallest_m) return false;
     }
     return true;
 }
 
-std::span<const Covered> SnowBody::covered() const
+LaidOverlay SnowBody::laid() const
 {
     if (!lies_) return {};
-    return covered_;
-}
-
-std::span<const Vertex> SnowBody::vertices() const
-{
-    if (!lies_) return {};
-    return overlay_.vertices;
+    return {overlay_.vertices, overlay_.indices, counts_, hidden_, covered_};
 }
 
 }  // namespace petrichor::gpu

@@ -1,7 +1,6 @@
 #ifndef PETRICHOR_GPU_SNOW_SNOW_BODY_H
 #define PETRICHOR_GPU_SNOW_SNOW_BODY_H
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "gpu/frame/frame.h"
+#include "gpu/snow/patch_depths.h"
 #include "gpu/upload/gpu_scene.h"
 #include "scene/snow/snow_caps.h"
 
@@ -21,8 +21,6 @@ namespace petrichor::gpu {
 /// ground; alpha of its weather is what is not snow of its own (gpu/passes/surface/snow_body.glsl).
 class SnowBody {
 public:
-    static constexpr int kAround = 5;  ///< places along each side of the square whose depths are blended
-
     explicit SnowBody(std::shared_ptr<const scene::SnowCaps> caps);
 
     /// What the scene is made with: the caps without snow.
@@ -30,17 +28,15 @@ public:
 
     /// Shapes the snow of a frame, by its depth alone; true when it is another than before.
     bool lay(const Frame& frame);
-    /// Empty: too thin to have a body.
-    std::span<const Vertex> vertices() const;
-    /// What of the scene lies below it: the same triangles of the caps are seen from above, and throw its shadows.
-    std::span<const Covered> covered() const;
+    /// Empty: too thin to have a body. Triangles are fewer where it is deep (scene::SnowLevels), and none where it is not. Of the scene
+    /// is covered what lies below it: the same triangles of the caps are seen from above, and throw its shadows.
+    LaidOverlay laid() const;
     /// The snow around an eye lies below it: it stands in none, and under none.
     bool lies_below(const glm::vec3& eye_m) const;
     /// The farthest that a vertex stands over its ground; 0 without any.
     float lift_m() const { return lies_ ? lift_m_ : 0.0f; }
 
 private:
-    using Around = std::array<std::uint32_t, kAround * kAround>;  // patches around a point, by rows
     struct Key {
         float depth_m = 0.0f, start_m = 0.0f, blend_m = 0.0f, ragged = 0.0f;
         bool wanted = false;
@@ -48,22 +44,31 @@ private:
         bool operator==(const Key&) const = default;
     };
     std::vector<float> depths(const Frame& frame);
-    void find_patches(const PlaceShape& shape);
 
     std::shared_ptr<const scene::SnowCaps> caps_;
     Overlay overlay_;
     std::optional<Key> laid_;
     bool lies_ = false;
     float lift_m_ = 0.0f;
+    float lowest_m_ = 1.0e30f;  // of the points on the scene
     std::vector<Covered> covered_;
     std::vector<std::uint32_t> covering_;  // which part of the caps says so of each
     void find_covered(const scene::SnowShape& shape);
     std::vector<std::uint8_t> hidden_points(const scene::SnowShape& shape) const;
-    std::vector<std::uint32_t> corners_;  // points of the caps' triangles
+    std::vector<std::uint32_t> corners_;  // points of the caps' triangles, all of them
+    std::vector<std::vector<std::uint32_t>> piece_points_;  // of each piece of the levels
+    // By the levels of the pieces:
+    std::vector<std::uint8_t> levels_;
+    scene::DrawnSnow drawn_;                    // points, and those of the triangles
+    std::vector<std::uint32_t> drawn_corners_;  // vertices that are drawn, each once
+    std::vector<std::uint32_t> drawn_indices_;  // of the triangles, piece by piece
+    std::vector<std::uint32_t> counts_;         // of each part, in the frame
+    std::vector<std::uint8_t> hidden_;          // of each triangle of those, from where
+    void choose_levels(const std::vector<float>& depth_m);
+    void fill_indices(const scene::SnowShape& shape);
     std::vector<std::uint8_t> inner_;     // of each point: 0 on a border
     std::vector<glm::vec3> top_m_;        // of each point, as it lies
-    std::shared_ptr<const PlaceShape> shape_;          // that patches_ belong to
-    std::vector<Around> patches_;
+    PatchDepths patches_;                 // at each point
 };
 
 }  // namespace petrichor::gpu

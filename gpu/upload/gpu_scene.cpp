@@ -207,6 +207,8 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
                      [](const Decal& a, const Decal& b) { return a.order < b.order; });
     vertices.insert(vertices.end(), bending_.begin(), bending_.end());
     first_overlay_ = vertices.size();
+    first_overlay_index_ = indices.size();
+    std::map<std::uint32_t, std::uint32_t> overlay_parts;  // by their first index
     for (const Overlay::Part& part : overlay.parts) {
         Draw draw;
         draw.first_index = static_cast<std::uint32_t>(indices.size()) + part.first_index;
@@ -215,6 +217,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
         draw.material = part.material;
         draw.instance_id = part.instance_id;
         draw.overlay = true;
+        overlay_parts[draw.first_index] = static_cast<std::uint32_t>(&part - overlay.parts.data());
         const auto own = std::span(overlay.indices).subspan(part.first_index, part.index_count);
         if (!own.empty()) {
             const auto [least, most] = std::minmax_element(own.begin(), own.end());
@@ -246,7 +249,9 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
     covered_.resize(draws_.size());
     for (Draw& draw : draws_) {
         draw.most_indices = draw.index_count;
-        if (draw.overlay) overlay_counts_.push_back(std::exchange(draw.index_count, 0));
+        if (!draw.overlay) continue;
+        overlay_parts_.push_back(overlay_parts.at(draw.first_index));
+        draw.index_count = 0;
     }
     steep_ = steep_triangles(draws_, materials_, vertices, indices);
     // Compute shaders fetch corners through texel views; a scene beyond their size has none.
@@ -329,22 +334,28 @@ void GpuScene::upload_looks(const Device& device, const Scene& scene)
     upload_buffer(device, *instance_looks_, std::as_bytes(std::span(texels)));
 }
 
-void GpuScene::lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered)
+void GpuScene::lay(const Device& device, const LaidOverlay& overlay)
 {
     for (auto& triangles : covered_) triangles.clear();
     std::map<std::pair<std::uint32_t, std::uint32_t>, const Covered*> below;
-    for (const Covered& one : covered) below[{one.instance_id, one.primitive}] = &one;
+    for (const Covered& one : overlay.covered) below[{one.instance_id, one.primitive}] = &one;
     for (std::size_t i = 0; i < draws_.size() && !below.empty(); ++i) {
         const Draw& draw = draws_[i];
         const auto found = draw.overlay ? below.end() : below.find({draw.instance_id, draw.primitive});
         if (found != below.end()) covered_[i] = found->second->triangles;
     }
-    overlaid_ = !overlay.empty();
+    overlaid_ = !overlay.vertices.empty();
     std::size_t next = 0;
-    for (Draw& draw : draws_) {
-        if (draw.overlay) draw.index_count = overlaid_ ? overlay_counts_[next++] : 0;
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+        Draw& draw = draws_[i];
+        if (!draw.overlay) continue;
+        draw.index_count = overlaid_ ? overlay.counts[overlay_parts_[next++]] : 0;
+        const auto hidden = overlay.hidden.subspan(overlaid_ ? (draw.first_index - first_overlay_index_) / 3 : 0, draw.index_count / 3);
+        covered_[i].assign(hidden.begin(), hidden.end());
     }
-    if (overlaid_) upload_vertices(device, overlay, first_overlay_);
+    if (!overlaid_) return;
+    upload_vertices(device, overlay.vertices, first_overlay_);
+    upload_buffer(device, *indices_, std::as_bytes(overlay.indices), first_overlay_index_ * 4);
 }
 
 void GpuScene::upload_textures(const Device& device, const std::vector<Texture>& textures)

@@ -81,6 +81,15 @@ struct Covered {
     std::vector<std::uint8_t> triangles;
 };
 
+/// An overlay as it lies in a frame.
+struct LaidOverlay {
+    std::span<const Vertex> vertices;
+    std::span<const std::uint32_t> indices;  ///< of its triangles; those of a part from where they begin in the Overlay
+    std::span<const std::uint32_t> counts;   ///< of each part: how many of its indices are drawn
+    std::span<const std::uint8_t> hidden;    ///< of each triangle, as in Covered: what need not be drawn from there; those of a part likewise
+    std::span<const Covered> covered;
+};
+
 /// The bounding sphere of a draw, from the box of its vertices.
 void place_sphere(Draw& draw, const Bounds& box);
 
@@ -132,9 +141,9 @@ public:
     void move_own(const Device& device, std::span<const MovedVertex> moved);
     /// Shapes the overlay of the frames that follow; empty: there is none in them. The device must not
     /// be drawing.
-    void lay(const Device& device, std::span<const Vertex> overlay, std::span<const Covered> covered = {});
+    void lay(const Device& device, const LaidOverlay& overlay);
     bool overlaid() const { return overlaid_; }
-    /// By the triangles of a draw, from where the overlay hides them (Covered); empty: from nowhere.
+    /// By the triangles of a draw, from where they need not be drawn (Covered); empty: from nowhere.
     std::span<const std::uint8_t> covered(const Draw& draw) const
     {
         return covered_[static_cast<std::size_t>(&draw - draws_.data())];
@@ -232,7 +241,8 @@ private:
     std::vector<Vertex> bending_;  // the last vertices of the buffer
     std::size_t first_bending_ = 0;
     std::size_t first_overlay_ = 0;
-    std::vector<std::uint32_t> overlay_counts_;  // indices of the overlay's draws, in their order
+    std::size_t first_overlay_index_ = 0;
+    std::vector<std::uint32_t> overlay_parts_;  // numbers of the overlay's draws, in their order
     bool overlaid_ = false;
     std::vector<std::vector<std::uint8_t>> covered_;  // of each draw
     SteepTriangles steep_;

@@ -409,6 +409,58 @@ void find_supports(SnowCaps& caps, const CutMesh& mesh)
     }
 }
 
+// Corners of no triangle, and points that neither those that are left nor what lies below their edges ask for.
+void leave_out_unused(SnowCaps& caps)
+{
+    std::vector<std::uint8_t> used(caps.corner_points.size(), 0);
+    for (const std::uint32_t corner : caps.indices) used[corner] = 1;
+    std::vector<std::uint32_t> corners(used.size(), SnowCaps::kNone), corner_points;
+    std::vector<std::uint8_t> asked(caps.points.size(), 0);
+    for (SnowCaps::Part& part : caps.parts) {
+        const std::uint32_t first = part.first_corner, count = static_cast<std::uint32_t>(part.source.positions.size());
+        part.first_corner = static_cast<std::uint32_t>(corner_points.size());
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            if (used[i] == 0) continue;
+            corners[i] = static_cast<std::uint32_t>(corner_points.size());
+            corner_points.push_back(caps.corner_points[i]);
+            asked[caps.corner_points[i]] = 1;
+        }
+        const auto keep = [&](auto& list) {
+            std::size_t to = 0;
+            for (std::uint32_t i = 0; i < count; ++i)
+                if (used[first + i] != 0) list[to++] = list[i];
+            list.resize(to);
+        };
+        Primitive& p = part.source;
+        keep(p.positions);
+        keep(p.normals);
+        keep(p.tangents);
+        keep(p.uv0);
+        keep(p.uv1);
+        keep(p.colors);
+        keep(p.weather);
+    }
+    for (std::uint32_t& corner : caps.indices) corner = corners[corner];
+    std::vector<std::uint32_t> numbers(caps.points.size(), SnowCaps::kNone);
+    for (const std::uint32_t i : corner_points) {
+        for (const std::uint32_t other : {caps.points[i].beyond, caps.points[i].below})
+            if (other != SnowCaps::kNone) asked[other] = 1;
+    }
+    std::uint32_t left = 0;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        if (asked[i] == 0) continue;
+        numbers[i] = left;
+        caps.points[left++] = caps.points[i];
+    }
+    caps.points.resize(left);
+    for (SnowCaps::Point& point : caps.points) {
+        for (std::uint32_t* other : {&point.beyond, &point.below})
+            if (*other != SnowCaps::kNone) *other = numbers[*other];
+    }
+    for (std::uint32_t& i : corner_points) i = numbers[i];
+    caps.corner_points = std::move(corner_points);
+}
+
 }  // namespace
 
 bool holds_snow_body(const Material& m)
@@ -564,6 +616,8 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         part.source = std::move(bank.source);
         caps.parts.push_back(std::move(part));
     }
+    leave_out_unused(caps);
+    caps.levels = build_snow_levels(caps, options.eyes_m);
     return caps;
 }
 

@@ -10,6 +10,7 @@
 
 #include "scene/patches/tracer.h"
 #include "scene/scene.h"
+#include "scene/snow/snow_levels.h"
 
 namespace petrichor::scene {
 
@@ -69,6 +70,7 @@ struct SnowCaps {
     std::vector<std::uint32_t> corner_points;  ///< of each vertex of all parts, in their order
     std::vector<std::uint32_t> indices;        ///< 3 a triangle, into corner_points
     std::vector<Part> parts;
+    SnowLevels levels;      ///< the same triangles, and fewer of them
     float finest_m = 0.0f;  ///< as it became; coarser than asked where a limit bit
 
     bool empty() const { return indices.empty(); }
@@ -102,11 +104,21 @@ struct SnowShape {
     float thickest_m = 0.0f;
 };
 
+/// What of the caps is shaped.
+struct DrawnSnow {
+    static constexpr std::uint8_t kBeside = 1, kDrawn = 2;
+    std::vector<std::uint8_t> points;      ///< of each: 0, kDrawn, or kBeside of those that are a drawn one's `beyond` or `below` alone
+    std::vector<std::uint32_t> triangles;  ///< that are drawn: 3 points each; they make the normals
+};
+
 /// depth_m: of each point, of snow on open ground there. Snow rounds off towards open edges as a quarter of
 /// an ellipse, as wide as deep and at most as wide as what it lies on, and stands out over them a
 /// little; it is nowhere deeper than what holds there. What edges shed leans against them: over a step that is lower
 /// than this bank and the snow below there is one sheet. Where there is none the cap lies below the surface.
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m);
+/// Points that are not drawn stay on the ground.
+SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn);
+DrawnSnow all_drawn(const SnowCaps& caps);
 
 }  // namespace petrichor::scene
 

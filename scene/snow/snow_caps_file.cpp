@@ -9,7 +9,7 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x66706163;  // "capf"
+constexpr std::uint32_t kMagic = 0x67706163;  // "capg"
 static_assert(sizeof(SnowCaps::Point) == 31 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
@@ -80,6 +80,24 @@ bool fits(const SnowCaps& caps, const SnowCaps::Part& part, const Scene& scene)
            p.colors.size() == corners && p.weather.size() == corners;
 }
 
+// Whether the pieces have room among the triangles of their parts.
+bool fits(const SnowCaps& caps)
+{
+    std::vector<std::size_t> whole(caps.parts.size(), 0);
+    for (const SnowLevels::Piece& piece : caps.levels.pieces) {
+        if (piece.part >= caps.parts.size()) return false;
+        whole[piece.part] += piece.levels[0].index_count;
+        for (const SnowLevels::Range& range : piece.levels) {
+            if (range.first_index > caps.levels.indices.size() || range.index_count > caps.levels.indices.size() - range.first_index ||
+                range.index_count > piece.levels[0].index_count || range.index_count % 3 != 0)
+                return false;
+        }
+    }
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        if (whole[i] != caps.parts[i].index_count) return false;
+    return true;
+}
+
 }  // namespace
 
 std::vector<std::byte> snow_caps_to_bytes(const SnowCaps& caps)
@@ -105,6 +123,8 @@ std::vector<std::byte> snow_caps_to_bytes(const SnowCaps& caps)
         to.list(p.colors);
         to.list(p.weather);
     }
+    to.list(caps.levels.pieces);
+    to.list(caps.levels.indices);
     return std::move(to.bytes);
 }
 
@@ -136,12 +156,15 @@ std::optional<SnowCaps> snow_caps_from_bytes(std::span<const std::byte> bytes, c
         if (!fits(caps, part, scene)) return {};
         caps.parts.push_back(std::move(part));
     }
-    if (!from.good || !from.left.empty()) return {};
+    caps.levels.pieces = from.list<SnowLevels::Piece>();
+    caps.levels.indices = from.list<std::uint32_t>();
+    if (!from.good || !from.left.empty() || !fits(caps)) return {};
     const auto all_below = [](const std::vector<std::uint32_t>& list, std::size_t end) {
         return std::all_of(list.begin(), list.end(), [&](std::uint32_t v) { return v < end; });
     };
     if (!all_below(caps.corner_points, caps.points.size()) ||
-        !all_below(caps.indices, caps.corner_points.size()))
+        !all_below(caps.indices, caps.corner_points.size()) ||
+        !all_below(caps.levels.indices, caps.corner_points.size()))
         return {};
     return caps;
 }

@@ -18,6 +18,7 @@ namespace {
 using glm::vec3;
 
 constexpr float kSunk_m = 0.012f;       // of a cap without snow, below its surface
+constexpr float kNotSunk_m = 0.16f;     // less than a hundredth of a millimetre is left of that
 constexpr float kOverhang = 0.22f;      // of the depth
 constexpr float kMostOverhang_m = 0.05f;
 constexpr float kMostOverWidth = 0.7f;  // height of what stays on a post, over its half width
@@ -117,7 +118,19 @@ float drawn_snow_m(float depth_m)
     return kAsIs_m + room * (1.0f - std::exp(-(depth_m - kAsIs_m) / room));
 }
 
+DrawnSnow all_drawn(const SnowCaps& caps)
+{
+    DrawnSnow all{std::vector<std::uint8_t>(caps.points.size(), DrawnSnow::kDrawn), {}};
+    for (const std::uint32_t corner : caps.indices) all.triangles.push_back(caps.corner_points[corner]);
+    return all;
+}
+
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
+{
+    return snow_shape(caps, depth_m, all_drawn(caps));
+}
+
+SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn)
 {
     SnowShape shape;
     const std::size_t count = caps.points.size();
@@ -132,6 +145,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     };
     std::vector<float> fallen(count), closing(count), bare(count), top(count);
     for (std::size_t i = 0; i < count; ++i) {
+        if (drawn.points[i] == 0) continue;
         const SnowCaps::Point& p = caps.points[i];
         fallen[i] = fallen_m(p, depth_m[i]);
         if (p.bank > 0.0f) continue;
@@ -147,6 +161,12 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     std::vector<std::uint8_t> sunk_rim(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
+        if (drawn.points[i] != DrawnSnow::kDrawn) {
+            shape.positions.push_back(p.base_m);
+            shape.thickness_m.push_back(0.0f);
+            shape.deep_m.push_back(0.0f);
+            continue;
+        }
         if (p.bank > 0.0f) {
             const float over = fallen[i] + filled_m(p, fallen[i]) + bank_m(p, fallen[i]);
             const float thickness = std::max(std::min(over, fallen[i]), 0.0f);
@@ -175,7 +195,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const float lost = shared::smooth_edge(0.0f, 0.5f, lower / std::max(held, 1.0e-6f));
         const float round_low = rounded(p.low_m / width);
         const float thickness = held * (round_low + lost * (1.0f - round_low)) * (round + kept * (1.0f - round)) * (round_slot + slot * (1.0f - round_slot));
-        const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
+        const float sunk = thickness < kNotSunk_m ? kSunk_m * std::exp(-thickness / 0.02f) : 0.0f;
         vec3 at = p.base_m;
         // Near an edge snow that is smoothed down still lies on what is below it.
         const float smoothed = top[i] - bare[i];
@@ -210,9 +230,8 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     shape.normals.assign(count, vec3(0.0f));
     // What sinks into the snow at its foot is not seen, and bends no light at the edge.
     std::vector<std::array<std::uint32_t, 3>> sinking;
-    for (std::size_t k = 0; k + 2 < caps.indices.size(); k += 3) {
-        const std::array t{caps.corner_points[caps.indices[k]], caps.corner_points[caps.indices[k + 1]],
-                           caps.corner_points[caps.indices[k + 2]]};
+    for (std::size_t k = 0; k + 2 < drawn.triangles.size(); k += 3) {
+        const std::array t{drawn.triangles[k], drawn.triangles[k + 1], drawn.triangles[k + 2]};
         if (sunk_rim[t[0]] || sunk_rim[t[1]] || sunk_rim[t[2]]) {
             sinking.push_back(t);
             continue;

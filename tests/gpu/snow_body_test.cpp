@@ -147,7 +147,7 @@ TEST_F(SnowBodyTest, WhatItCoversIsMissedNowhere)
     SnowBody body(own);
     ASSERT_TRUE(body.lay(frames.front()));
     std::size_t hidden = 0;
-    for (const Covered& one : body.covered())
+    for (const Covered& one : body.laid().covered)
         for (const std::uint8_t from : one.triangles) hidden += (from & Covered::kFromEye) != 0 ? 1 : 0;
     EXPECT_GT(hidden, 2000u);
     EXPECT_TRUE(body.lies_below({0.5f, 0.45f, 0}));
@@ -199,7 +199,7 @@ TEST(SnowBodyCovers, WhatABankLiesOnToo)
     for (const scene::SnowCaps::Part& part : caps->parts) {
         if (!is_bank(part)) continue;
         const auto named = [&](const Covered& one) { return one.instance_id == part.instance && one.primitive == part.primitive; };
-        EXPECT_EQ(std::count_if(body.covered().begin(), body.covered().end(), named), 1);
+        EXPECT_EQ(std::count_if(body.laid().covered.begin(), body.laid().covered.end(), named), 1);
     }
 }
 

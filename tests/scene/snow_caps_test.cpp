@@ -155,6 +155,23 @@ TEST(SnowCaps, BanksLieOnGroundAndNotOnThings)
 }
 
 // Two slabs 2 cm apart: their borders are closed, and under snow they reach over the joint.
+// What roofs a pavement over is no ground of the kerb at its rim.
+TEST(SnowCaps, BanksLieAtTheFootOfAnAwningToo)
+{
+    Scene scene = empty_scene();
+    add_ground(scene, 4.0f);
+    add_box(scene, {0, 0, -4}, {4, 0.12f, 4}, false);
+    add_face(scene, {-0.1f, 2.4f, 1}, {2.1f, 0, 0}, {0, 0, -2});
+    const SnowCaps caps = caps_of(scene, {.eyes_m = {{-2, 1.6f, 0}}});
+    const auto banks = [&](float from_z, float to_z) {
+        return std::count_if(caps.points.begin(), caps.points.end(), [&](const SnowCaps::Point& p) {
+            return p.bank > 0.0f && p.fade < 0.5f && p.base_m.y < 0.3f && p.base_m.z > from_z && p.base_m.z < to_z;
+        });
+    };
+    EXPECT_GT(banks(1.5f, 2.5f), 100);
+    EXPECT_GT(banks(-0.5f, 0.5f), banks(1.5f, 2.5f) / 2);
+}
+
 TEST(SnowCaps, ReachOverJoints)
 {
     Scene scene = empty_scene();

@@ -14,6 +14,7 @@ using glm::vec2;
 
 constexpr float kWideGround_m2 = 0.6f;    // ground that hangs together and is no larger keeps its shape
 constexpr float kWidePlateau_m2 = 0.25f;  // what stands higher than all around it and is no larger is a thing
+constexpr float kHeadroom_m = 1.0f;
 constexpr int kThing = 3;                 // cells: what is no wider than twice this is no ground
 constexpr float kWidth = 1.6f;            // radius of the circle, over the depth, as that of the caps
 
@@ -90,8 +91,12 @@ OneGround::OneGround(const Sheet& sheet) : sheet_(&sheet), width_(sheet.width())
     for (int z = 0; z < height_; ++z) {
         for (int x = 0; x < width_; ++x) {
             std::uint32_t& top = top_[index(x, z)];
+            float lowest_m = 1.0e9f;
+            for (std::uint32_t k = sheet.first(x, z); k != Sheet::kNoLayer; k = layers[k].next)
+                if (is_ground(k)) lowest_m = std::min(lowest_m, layers[k].height_m);
             for (std::uint32_t k = sheet.first(x, z); k != Sheet::kNoLayer; k = layers[k].next) {
-                if (!is_ground(k)) continue;
+                // What lies so far over other ground is a roof or an awning.
+                if (!is_ground(k) || layers[k].height_m > lowest_m + kHeadroom_m) continue;
                 if (top == Sheet::kNoLayer || layers[k].height_m > layers[top].height_m) top = k;
             }
         }

@@ -14,8 +14,8 @@ namespace petrichor::scene::detail {
 
 inline constexpr float kHighestStep_m = 0.25f;  // that ground hangs together over
 
-/// Of each cell of a sheet the highest layer of ground that hangs together over steps and is wide; things that stand on
-/// it are left out, and joints are as high as their stones.
+/// Of each cell of a sheet the highest layer of ground that hangs together over steps and is wide, below what roofs it over;
+/// things that stand on it are left out, and joints are as high as their stones.
 class OneGround {
 public:
     static constexpr float kStep_m = 0.02f;  ///< from cell to cell: lower ones are relief

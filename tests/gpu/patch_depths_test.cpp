@@ -1,0 +1,91 @@
+// Snow between patches that are squares of one depth each.
+#include "gpu/snow/patch_depths.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formulas/light/patch_cells.h"
+#include "formulas/noise/noise.h"
+
+namespace petrichor::gpu {
+namespace {
+
+using glm::vec3;
+
+constexpr float kCell_m = 0.5f;
+constexpr int kCells = 24;
+
+// Level ground of squares that rises by half a cell on its way along x.
+float ground_m(float x) { return 0.02f * x; }
+
+std::shared_ptr<PlaceShape> squares()
+{
+    auto shape = std::make_shared<PlaceShape>();
+    shape->grid.cell_m = kCell_m;
+    shape->grid.levels = 1;
+    shape->grid.patches = 4 * kCells * kCells;
+    shape->grid.table_mask = 8191;
+    shape->table.assign(8192, glm::uvec4(0, 0, shared::kNoPatch, 0));
+    std::uint32_t number = 0;
+    constexpr int kFine = 64;  // places along a cell: where the ground crosses a layer a column has a patch in each
+    for (int i = 0; i < kFine * kCells * kCells; ++i) {
+        const vec3 at(kCell_m / kFine * static_cast<float>(i % (kFine * kCells)), 0.0f, kCell_m * static_cast<float>(i / (kFine * kCells)));
+        const glm::ivec3 cell = shared::patch_cell(at + vec3(0.0f, ground_m(at.x) + 0.06f * kCell_m, 0.0f), 1.0f / kCell_m);
+        const shared::PatchKey key = shared::patch_key(cell, 2, 0);
+        std::uint32_t slot = shared::patch_key_hash(key) & shape->grid.table_mask;
+        while (shape->table[slot].z != shared::kNoPatch && (shape->table[slot].x != key.low || shape->table[slot].y != key.high))
+            slot = (slot + 1) & shape->grid.table_mask;
+        if (shape->table[slot].z == shared::kNoPatch) shape->table[slot] = glm::uvec4(key.low, key.high, number++, 0);
+    }
+    return shape;
+}
+
+PlaceWeather weather_of(const std::shared_ptr<PlaceShape>& shape, float rough_m)
+{
+    PlaceWeather weather;
+    weather.shape = shape;
+    weather.states.assign(std::size_t{shape->grid.patches} * PLACE_STATE_TEXELS, glm::vec4(0.0f));
+    for (std::uint32_t i = 0; i < shape->grid.patches; ++i)
+        weather.states[std::size_t{i} * PLACE_STATE_TEXELS + 2].z = 0.1f + rough_m * (shared::hash_f(shared::hash_u3(i, 3u, 5u)) - 0.5f);
+    return weather;
+}
+
+// Neither steps nor creases along a line over borders and layers: as steep as the spline, and no steeper from one millimetre to the next.
+TEST(PatchDepths, KnowNoBordersOfPatches)
+{
+    std::vector<vec3> places;
+    for (float x = 2.0f; x < 9.0f; x += 0.001f) places.emplace_back(x, ground_m(x), 5.3f);
+    const auto shape = squares();
+    PatchDepths depths;
+    depths.find(shape, places);
+    const std::vector<float> even = depths.depths_m(weather_of(shape, 0.0f), 0.7f);
+    const auto [low, high] = std::minmax_element(even.begin(), even.end());
+    EXPECT_NEAR(*low, 0.1f, 1.0e-5f);
+    EXPECT_NEAR(*high, 0.1f, 1.0e-5f);
+    const std::vector<float> rough = depths.depths_m(weather_of(shape, 0.04f), 0.7f);
+    float step_m = 0.0f, bend_m = 0.0f, range_m = 0.0f;
+    for (std::size_t i = 10; i + 10 < rough.size(); ++i) {
+        step_m = std::max(step_m, std::abs(rough[i + 1] - rough[i]));
+        bend_m = std::max(bend_m, std::abs(rough[i + 10] - 2.0f * rough[i] + rough[i - 10]));
+        range_m = std::max(range_m, std::abs(rough[i] - 0.1f));
+    }
+    EXPECT_GT(range_m, 0.002f) << "patches do differ";
+    EXPECT_LT(step_m, 1.5e-4f) << "a step of 15 % at most";
+    EXPECT_LT(bend_m, 1.0e-4f) << "no crease within a centimetre";
+}
+
+TEST(PatchDepths, AreThoseOfTheOpenBeyondThem)
+{
+    const auto shape = squares();
+    PatchDepths depths;
+    depths.find(shape, {{5.0f, ground_m(5.0f), 5.0f}, {60.0f, 0.0f, 5.0f}, {5.0f, 9.0f, 5.0f}});
+    const std::vector<float> found = depths.depths_m(weather_of(shape, 0.0f), 0.7f);
+    EXPECT_NEAR(found[0], 0.1f, 1.0e-5f);
+    EXPECT_EQ(found[1], 0.7f);
+    EXPECT_EQ(found[2], 0.7f);
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
