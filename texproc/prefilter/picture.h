@@ -63,7 +63,8 @@ PictureOptions reference_pictures();
 /// floor from above, and plain trilinear filtering.
 PictureOptions all_pictures();
 /// Twelve with views and lights drawn from a seed: none is among those that a rule looks at, or was chosen
-/// with. Two thirds on paint, the others on metal.
+/// with. Two thirds on paint, the others on metal. Where a metre of the material has fewer than some 250 texels,
+/// some of them see level 0 alone.
 PictureOptions drawn_pictures(std::uint32_t seed);
 /// Small ones with other lights, views and places: what the rule picture checks itself on. A ring of
 /// suns, low and high, some with a sky, a window and a sky alone, on paint and on metal, and one view

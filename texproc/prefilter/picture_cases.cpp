@@ -130,11 +130,17 @@ PictureOptions drawn_pictures(std::uint32_t seed)
     for (int view = 0; view < kViews; ++view) {
         const std::string number = std::to_string(view + 1);
         const double turned = between(0.0, 2.0 * std::numbers::pi), step = between(0.01, 0.03);
+        const double pitch = between(11.0, 50.0), field_of_view = between(20.0, 40.0);
+        constexpr double kDegree = std::numbers::pi / 180.0;
+        constexpr int kWidth = 200;
+        // As far as its middle pixel is 4 to 16 mm wide: nearer there are no levels to see.
+        const double pixel = 2.0 * std::tan(0.5 * field_of_view * kDegree) / kWidth;
+        const double distance_m = 0.004 * std::exp2(between(0.0, 2.0)) / pixel;
         o.views.push_back({.name = "view " + number,
-                           .height_m = between(1.1, 4.0),
-                           .pitch_deg = between(11.0, 50.0),
-                           .field_of_view_deg = between(20.0, 40.0),
-                           .width = 200,
+                           .height_m = distance_m * std::sin(pitch * kDegree),
+                           .pitch_deg = pitch,
+                           .field_of_view_deg = field_of_view,
+                           .width = kWidth,
                            .rows = 80,
                            .step_right_m = step * std::cos(turned),
                            .step_ahead_m = step * std::sin(turned)});
