@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/parallel.h"
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
 #include "scene/snow/detail/bank.h"
@@ -326,7 +327,7 @@ struct Grids {
 void fill_points(SnowCaps& caps, const CutMesh& mesh, const Grids& grids, const std::vector<vec3>& normals)
 {
     const std::vector<float> longest = longest_edges_m(mesh, normals.size());
-    for (std::size_t number = 0; number < caps.points.size(); ++number) {
+    parallel_for(caps.points.size(), 0, [&](std::size_t number) {
         SnowCaps::Point& point = caps.points[number];
         const vec3& at = point.base_m;
         const vec3& normal = normals[number];
@@ -349,7 +350,7 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const Grids& grids, const 
             if (point.slot_m < 1.0e-3f) point.bridge_m = slot.border->out * (0.5f * point.gap_m + 0.01f);
         }
         point.uneven = detail::uneven_at(at, longest[number]);
-    }
+    });
 }
 
 // What tracks press down, at last: the snow around them does not know of them.

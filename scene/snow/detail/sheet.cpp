@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
 #include "scene/snow/detail/circle_plane.h"
@@ -178,7 +179,7 @@ Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>&
     const float close_m = !options.eyes_m.empty() && close.width() > 0 && close.cell_m() < kCloseUp * kCell_m ? kClose_m - 0.5f : 0.0f;
     const Sheet far(caps, mesh, kFarCell_m, [](const vec3&) { return true; });
     const std::vector<float> away = rims_on_ground(caps, mesh, joints, tracer);
-    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+    parallel_for(caps.points.size(), 0, [&](std::size_t i) {
         SnowCaps::Point& point = caps.points[i];
         const float eye = eye_m(point.base_m);
         const Sheet& sheet = eye < close_m ? close : eye < kNear_m - 1.0f ? near : far;
@@ -208,7 +209,7 @@ Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>&
         // What lies below something else all around, as a wall below its coping, carries none.
         point.share *= seen;
         point.broad = seen * broad;
-    }
+    });
     return near;
 }
 
