@@ -591,7 +591,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 cookie = cookie_place(normalize(vec3(b.x - 0.5f, b.y - 0.5f, 0.5f)), 0.1f + 0.8f * a.z);
         const vec2 lantern = lantern_place(at);
         const float seen = lantern_seen(vec2(c.x, 0.1f + 0.2f * c.y), at, 0.6f * c.z);
-        return vec4(photometry.x + cookie.x, photometry.y + cookie.y, lantern.x + lantern.y, seen) / vec4(100.0f, 100.0f, 100.0f, 1.0f);
+        const vec3 looks = spline_looks(c.w);
+        return vec4((photometry.x + cookie.x) * 0.01f, (photometry.y + cookie.y) * 0.01f, (lantern.x + lantern.y) * 0.01f, seen + looks.x + 2.0f * looks.y + looks.z);
     }
     if (kind == 65) {
         const vec3 at = vec3(60.0f * a.x - 30.0f, 40.0f * a.y, 60.0f * a.z - 30.0f);

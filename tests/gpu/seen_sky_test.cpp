@@ -66,13 +66,13 @@ std::uint32_t tile_of(const glm::vec3& d)
     return sky_tile(p.face, tile(p.texel.y), tile(p.texel.x));
 }
 
-// What lies between texels reads those around it, over edges of the cube too: a texel's width to each side.
+// What lies between texels reads those around it, over edges of the cube too: two texels' width to each side.
 void expect_read(const Tiles& tiles, const glm::vec3& d)
 {
     const glm::vec3 side = glm::normalize(glm::cross(d, std::abs(d.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
     const glm::vec3 other = glm::cross(d, side);
     // A quarter turn has 384 texels; in the middle of a face they are the widest.
-    const float width = 2.0f / static_cast<float>(kSkyCubeSide);
+    const float width = 4.0f / static_cast<float>(kSkyCubeSide);
     for (int i = 0; i < 8; ++i) {
         const float turn = 0.785398f * static_cast<float>(i);
         const glm::vec3 around = glm::normalize(d + width * (side * std::cos(turn) + other * std::sin(turn)));

@@ -2,6 +2,7 @@
 // What is seen where no surface is.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "formulas/light/cube_map.h"
 #include "formulas/light/fog.h"
 #include "formulas/weather/falling.h"
 #include "formulas/weather/gusts.h"
@@ -66,10 +67,41 @@ vec3 land_behind_air(vec3 radiance, vec3 direction)
     return mix(veil * frame.sky_scale, radiance, min(kept, 1.0));
 }
 
+vec4 sky_texel(vec3 direction, bool over_land)
+{
+    return textureLod(sky_map, over_land ? over_horizon(direction) : direction, 0.0);
+}
+
+// The sky's map. Where its texels are wider than pixels it goes between them by a cubic spline, in four looks of its own
+// filter (Sigg and Hadwiger 2005): that alone draws the edges of clouds as stairs.
+vec4 sky_seen(vec3 direction, bool over_land)
+{
+    const float side = float(textureSize(sky_map, 0).x);
+    if (pixel_width_m(frame, 1.0) * side >= 2.0) return sky_texel(direction, over_land);
+    const vec3 a = abs(direction);
+    const float longest = max(a.x, max(a.y, a.z));
+    const vec3 on_cube = direction / longest;
+    const vec3 s = a.x >= longest ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    const vec3 t = a.x < longest && a.z >= longest ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+    const vec2 at = vec2(dot(on_cube, s), dot(on_cube, t));
+    const vec2 texel = (at * 0.5 + 0.5) * side - 0.5;
+    const vec2 low = floor(texel);
+    const vec3 across = spline_looks(texel.x - low.x), along = spline_looks(texel.y - low.y);
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < 4; ++k) {
+        const bvec2 second = bvec2((k & 1) != 0, (k & 2) != 0);
+        const vec2 place = low + mix(vec2(across.x, along.x), vec2(across.y, along.y), second);
+        const vec2 share = mix(vec2(across.z, along.z), 1.0 - vec2(across.z, along.z), second);
+        const vec2 off = (place + 0.5) * (2.0 / side) - 1.0 - at;
+        sum += share.x * share.y * sky_texel(on_cube + s * off.x + t * off.y, over_land);
+    }
+    return sum;
+}
+
 vec3 background(vec3 direction)
 {
     const bool over_land = (frame.flags & FRAME_LAND) != 0u && FOG != 0u && direction.y >= 0.0;
-    const vec4 sky = textureLod(sky_map, over_land ? over_horizon(direction) : direction, 0.0);
+    const vec4 sky = sky_seen(direction, over_land);
     vec3 radiance = land_behind_air(sky.rgb * frame.sky_scale, direction);
     if (NIGHT != 0u) radiance += night_lights(direction) * sky.a;
     if ((frame.flags & FRAME_SUN_DISC) != 0u) {

@@ -36,8 +36,8 @@ Cone cone_of(const shared::FrameConstants& c)
     return cone;
 }
 
-// A square of texels as a disc of directions. Two texels around it count, since what lies between texels reads both,
-// over edges of the cube too.
+// A square of texels as a disc of directions. Three texels around it count, since a spline between texels reads two on each
+// side (gpu/passes/background), over edges of the cube too.
 struct Disc {
     glm::vec3 middle;
     float sine;  // of half its width
@@ -51,7 +51,7 @@ Disc disc_around(int face, int row, int at, int tiles)
     const float half = 0.5f * static_cast<float>(tiles * kSkyTile);
     const float x = static_cast<float>(at * kSkyTile) + half;
     const float y = static_cast<float>(row * kSkyTile) + half;
-    const float reach = half + 2.0f;
+    const float reach = half + 3.0f;
     const glm::vec3 middle = glm::normalize(shared::cube_direction(face, st(x, y)));
     float cosine = 1.0f;
     for (const float u : {-reach, reach}) {
