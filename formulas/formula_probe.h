@@ -600,7 +600,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const SlopeRelief relief = with_gullies(slope_relief(at, width_m), at, width_m, 2.0f * a.w);
         const float ribs = land_ribs(at, width_m);
         const vec3 n = land_normal(probe_direction(b.x, b.y), relief.flatter, ribs, land_relief_share(b.z));
-        return vec4(n.x + 2.0f * n.y + 3.0f * n.z, ribs, 3.0f + relief.flatter, relief.lost);
+        return vec4(0.3f * n.x + 0.6f * n.y + n.z, ribs, 3.0f + relief.flatter, relief.lost);
     }
     if (kind == 66) {
         const float wall = drinking_wall(2.0f * a.x - 1.0f, a.y);
