@@ -17,7 +17,7 @@ function(petrichor_precompile_rooms first)
         target_precompile_headers(${target} REUSE_FROM ${first})
         # GCC 12 warns of lengths inside std::string that cannot be, which it does not where it has read the text.
         target_compile_options(${target} PRIVATE
-            $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-stringop-overread>)
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread>)
         # What is compiled for another processor or another arithmetic cannot use them.
         get_target_property(folder ${target} SOURCE_DIR)
         get_target_property(files ${target} SOURCES)
