@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "film/frames/frames_jsonl.h"
 #include "scene/material_table.h"
@@ -46,7 +49,12 @@ std::string striped_png()
 TEST_F(MaterialTextures, EverySlotTakesAFileThatChangesThePicture)
 {
     write_file(place_ / "stripes.png", striped_png());
-    const std::string plain = picture("", "plain");
+    std::map<std::string, std::string> before;  // by what is asked for beside the slot
+    const auto without = [&](const std::string& more) -> const std::string& {
+        const auto [at, is_new] = before.try_emplace(more);
+        if (is_new) at->second = picture(more, "without-" + std::to_string(before.size()));
+        return at->second;
+    };
     for (const scene::MaterialTexture& slot : scene::material_textures()) {
         const std::string name(slot.name);
         // Of a second set something must be seen, and of a trodden normal what is trodden.
@@ -55,10 +63,9 @@ TEST_F(MaterialTextures, EverySlotTakesAFileThatChangesThePicture)
                                  : name.starts_with("snow_mask_normal")
                                      ? "snow_mask_texture = \"stripes.png\"\n"
                                      : "";
-        const std::string without = more.empty() ? plain : picture(more, name + "-without");
-        EXPECT_NE(picture(more + name + " = \"stripes.png\"\n", name), without) << name;
+        EXPECT_NE(picture(more + name + " = \"stripes.png\"\n", name), without(more)) << name;
     }
-    EXPECT_NE(picture("base_color_texture = \"\"\n", "bare"), plain);
+    EXPECT_NE(picture("base_color_texture = \"\"\n", "bare"), without(""));
 }
 
 TEST_F(MaterialTextures, AFileThatChangesIsRenderedAgain)

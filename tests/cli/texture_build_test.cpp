@@ -560,7 +560,7 @@ TEST(TextureBuild, LevelsAreThoseOfWhatTheMetallicMapSays)
 {
     const Workplace place("build-surface");
     const texproc::MaterialMaps plate =
-        texproc::generate_material(texproc::MaterialKind::MetalPlate, 64, 3, 1);
+        texproc::generate_material(texproc::MaterialKind::MetalPlate, 32, 3, 1);
     texproc::write_image(place / "normal.exr", plate.normal);
     texproc::write_image(place / "roughness.exr", plate.roughness);
     // share: how much of the map is metal, in a band; below 0 there is no map.
@@ -571,10 +571,10 @@ TEST(TextureBuild, LevelsAreThoseOfWhatTheMetallicMapSays)
             "format = \"dds\"\ncompression = \"bc5\"\n[[output]]\nfile = \"{name}_r\"\n"
             "channels = [\"roughness\"]\nformat = \"dds\"\ncompression = \"bc4\"\n";
         if (share >= 0.0f) {
-            Image metallic(64, 64, 1, ColorSpace::Data);
-            for (int y = 0; y < 64; ++y)
-                for (int x = 0; x < 64; ++x)
-                    metallic.at(x, y, 0) = static_cast<float>(y) < 64.0f * share ? 1.0f : 0.0f;
+            Image metallic(32, 32, 1, ColorSpace::Data);
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 32; ++x)
+                    metallic.at(x, y, 0) = static_cast<float>(y) < 32.0f * share ? 1.0f : 0.0f;
             texproc::write_image(place / (name + "_metallic.png"), metallic);
             recipe += "metallic = \"" + name + "_metallic.png\"\n";
             outputs += "[[output]]\nfile = \"{name}_m\"\nchannels = [\"metallic\"]\n";
@@ -599,10 +599,10 @@ TEST(TextureBuild, LevelsAreThoseOfWhatTheMetallicMapSays)
 TEST(TextureBuild, ASecondLobeGoesWithTheNormals)
 {
     const Workplace place("build-lobes");
-    const texproc::MaterialMaps plate = texproc::generate_material(texproc::MaterialKind::MetalPlate, 64, 3, 1);
+    const texproc::MaterialMaps plate = texproc::generate_material(texproc::MaterialKind::MetalPlate, 32, 3, 1);
     texproc::write_image(place / "in/plate_normal.png", plate.normal);
     texproc::write_image(place / "in/plate_roughness.png", plate.roughness);
-    texproc::write_image(place / "in/plate_metallic.png", Image(64, 64, 1, ColorSpace::Data, 1.0f));
+    texproc::write_image(place / "in/plate_metallic.png", Image(32, 32, 1, ColorSpace::Data, 1.0f));
     const auto built = [&](const std::string& lobes) {
         const Outcome made = run({"texture", "build", "in", "--engine", "unreal", "--quality", "full", "--lobes", lobes,
                                   "-o", "out" + lobes},
@@ -625,7 +625,7 @@ TEST(TextureBuild, ASecondLobeGoesWithTheNormals)
     ASSERT_EQ(lobe.channels, 4);
     const Image a = to_image(lobe, ColorSpace::Data), b = to_image(normal, ColorSpace::Data),
                 r = to_image(rough, ColorSpace::Data);
-    for (int i = 0; i < 64; ++i) {  // level 0: both lobes are the same
+    for (int i = 0; i < 32; ++i) {  // level 0: both lobes are the same
         EXPECT_NEAR(a.at(i, i, 0), b.at(i, i, 0), 0.003f);
         EXPECT_NEAR(a.at(i, i, 1), b.at(i, i, 1), 0.003f);
         EXPECT_NEAR(a.at(i, i, 2), r.at(i, i, 0), 0.003f);

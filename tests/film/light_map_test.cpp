@@ -80,6 +80,9 @@ private:
             keep_positive(b0, b1);
             keep_positive(c0, c1);
             keep_positive(1.0f - b0 - c0, -b1 - c1);
+            // Along an edge that is nearly level both may lie beyond any whole number.
+            from = std::min(from, high.x);
+            to = std::max(to, low.x);
             for (int x = static_cast<int>(std::floor(from)) - 1; x <= static_cast<int>(to) + 1; ++x) {
                 const glm::vec2 d = glm::vec2(x, y) + 0.5f - uv[0];
                 const float b = (d.x * e2.y - d.y * e2.x) / area;
@@ -121,7 +124,7 @@ TEST_F(LightMap, LightsARealSceneAsTheLightThatWasBaked)
     NEED_ASSETS(assets);
     const Workplace place("light-map");
     const std::string head = "[scene]\nfile = \"" + assets.string() +
-                             "/models/FlightHelmet/FlightHelmet.gltf\"\nmax_texture = 256\n"
+                             "/models/FlightHelmet/FlightHelmet.gltf\"\nmax_texture = 256\nground = \"none\"\n"
                              "[sun]\nsource = \"scene\"\n"
                              "[render]\nimage_based_light = false\nshadows = false\ndraw_sky = false\n"
                              "[output]\nwidth = 192\nheight = 192\nsamples = 4\nframes = 1\n"

@@ -318,7 +318,7 @@ TEST_F(TwoLobesOnATile, AreNearerToTheTruthThanOneAndThanPlainMips)
     for (const float azimuth : {3.0f, 1.4f}) {
         frame.sky.sun_elevation_rad = 0.45f;
         frame.sky.sun_azimuth_rad = azimuth;
-        const auto truth = film(truth_maps, 2, 256);
+        const auto truth = film(truth_maps, 2, 64);
         std::vector<float> sorted = truth[0];
         std::sort(sorted.begin(), sorted.end());
         const float white = sorted[sorted.size() * 97 / 100] / 0.9f;

@@ -10,44 +10,20 @@
 #include <utility>
 
 #include "scene/snow/snow_caps.h"
-#include "tests/scene/patch_scenes.h"
+#include "tests/scene/snow_scenes.h"
 
 namespace petrichor::scene {
 namespace {
 
-using namespace patch_scenes;
+using namespace snow_scenes;
 using glm::vec2;
 using glm::vec3;
-
-// Stones of 15 cm, a triangle every 3 cm.
-Scene cobbles()
-{
-    Scene scene = empty_scene();
-    constexpr int kSide = 100;
-    constexpr float kStep_m = 0.03f;
-    Primitive& p = scene.meshes[0].primitives[0];
-    for (int z = 0; z <= kSide; ++z) {
-        for (int x = 0; x <= kSide; ++x) {
-            const float up = 0.006f * (std::sin(1.2566371f * static_cast<float>(x)) + std::sin(1.2566371f * static_cast<float>(z)));
-            p.positions.emplace_back(kStep_m * static_cast<float>(x), up, kStep_m * static_cast<float>(z));
-            p.normals.emplace_back(0, 1, 0);
-            p.uv0.emplace_back(0.0f);
-        }
-    }
-    for (std::uint32_t z = 0; z < kSide; ++z) {
-        for (std::uint32_t x = 0; x < kSide; ++x) {
-            const std::uint32_t a = z * (kSide + 1) + x, b = a + kSide + 1;
-            for (const std::uint32_t v : {a, b, a + 1, a + 1, b, b + 1}) p.indices.push_back(v);
-        }
-    }
-    return scene;
-}
 
 class SnowLevelsTest : public ::testing::Test {
 protected:
     SnowLevelsTest()
     {
-        const Scene scene = cobbles();
+        const Scene scene = cobbles(5, 100, 0.006f);
         const Triangles triangles(scene, {});
         const Tracer tracer(triangles);
         SnowCapOptions options;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kDeepest = 200;
 
-std::string quoted(std::string_view value)
+std::string in_quotes(std::string_view value)
 {
     std::string to = "\"";
     for (const char c : value) {
@@ -262,7 +262,7 @@ JsonText JsonText::string(std::string_view value)
 {
     JsonText made;
     made.kind_ = Kind::String;
-    made.made_ = quoted(value);
+    made.made_ = in_quotes(value);
     return made;
 }
 
@@ -288,7 +288,7 @@ void JsonText::write(std::string& to) const
     to += kind_ == Kind::Object ? '{' : '[';
     for (std::size_t i = 0; i < items_.size(); ++i) {
         if (i) to += ',';
-        if (kind_ == Kind::Object) to += quoted(keys_[i]) + ":";
+        if (kind_ == Kind::Object) to += in_quotes(keys_[i]) + ":";
         items_[i].write(to);
     }
     to += kind_ == Kind::Object ? '}' : ']';

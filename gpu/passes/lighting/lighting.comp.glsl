@@ -36,65 +36,7 @@
 #include "formulas/weather/gusts.h"
 #include "formulas/weather/snow_glints.h"
 
-layout(local_size_x = LIGHTING_TILE, local_size_y = LIGHTING_TILE) in;
-layout(constant_id = LIGHTING_SPEC_WEATHER) const uint WEATHER = 1u;
-layout(constant_id = LIGHTING_SPEC_SHADOWS) const uint SHADOWS = 1u;
-layout(constant_id = LIGHTING_SPEC_IMAGE_BASED_LIGHT) const uint IMAGE_BASED_LIGHT = 1u;
-layout(constant_id = LIGHTING_SPEC_AMBIENT_OCCLUSION) const uint AMBIENT_OCCLUSION = 1u;
-layout(constant_id = LIGHTING_SPEC_EMISSION) const uint EMISSION = 1u;
-layout(constant_id = LIGHTING_SPEC_GAMMA) const uint GAMMA = 0u;
-layout(constant_id = LIGHTING_SPEC_BAKED) const uint BAKED = 0u;
-layout(constant_id = LIGHTING_SPEC_ALL_LIGHTS) const uint ALL_LIGHTS = 0u;
-layout(constant_id = LIGHTING_SPEC_PATCHES) const uint PATCHES = 0u;
-layout(constant_id = LIGHTING_SPEC_LAMP_SHADOWS) const uint LAMP_SHADOWS = 1u;
-layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
-// Constants, not branches: a device without branches of its own computes both sides of one.
-layout(constant_id = LIGHTING_SPEC_GUSTS) const uint GUSTS = 1u;
-layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
-layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
-layout(constant_id = LIGHTING_SPEC_SOFT_LAMPS) const uint SOFT_LAMPS = 0u;
-layout(constant_id = LIGHTING_SPEC_SHARES) const uint SHARES = 0u;
-layout(constant_id = LIGHTING_SPEC_SUN) const uint SUN = 1u;
-layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
-layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
-layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
-layout(constant_id = LIGHTING_SPEC_GRAIN) const uint GRAIN = 0u;
-layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
-layout(constant_id = LIGHTING_SPEC_SPARKLE) const uint SPARKLE = 0u;
-layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
-layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
-layout(constant_id = LIGHTING_SPEC_PROBES) const uint PROBES = 0u;
-layout(constant_id = LIGHTING_SPEC_PICTURE) const uint PICTURE = 1u;
-layout(constant_id = LIGHTING_SPEC_GATHERS) const uint GATHERS = 0u;
-#define ROW(number_, name_) \
-    layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
-LIGHTING_MODELS(ROW)
-#undef ROW
-
-#define FRAME_PLACE binding = LIGHTING_FRAME
-#include "gpu/frame/frame_words.glsl"
-layout(binding = LIGHTING_OCCLUSION) uniform usamplerBuffer occlusion_words;
-layout(binding = LIGHTING_SHADOW) uniform sampler2DArray shadow_map;
-layout(binding = LIGHTING_LAMP_SHADOWS) uniform sampler2DArray lamp_shadow_map;
-layout(binding = LIGHTING_SKY_QUADS) uniform usamplerBuffer sky_quads;
-layout(binding = LIGHTING_ENV_BRDF) uniform sampler2D env_brdf;
-layout(binding = LIGHTING_LIGHTS) uniform samplerBuffer lights;
-layout(binding = LIGHTING_MATERIALS) uniform samplerBuffer material_looks;
-layout(binding = LIGHTING_LAYERS) uniform samplerBuffer layers_table;
-layout(binding = LIGHTING_LTC) uniform samplerBuffer ltc_matrices;
-layout(binding = LIGHTING_PROFILES) uniform samplerBuffer light_profiles;
-layout(binding = LIGHTING_SKIN) uniform samplerBuffer skin_table;
-layout(binding = LIGHTING_SHARES) uniform usampler2D layer_shares;
-layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
-layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
-layout(binding = LIGHTING_PARTS, rgba32f) uniform image2DArray light_parts;
-layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
-layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texels;
-layout(binding = LIGHTING_PROBE_BANDS) uniform usamplerBuffer probe_bands;
-layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
-layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
-layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
-layout(binding = LIGHTING_MIRROR_LIST, scalar) buffer Mirrors { uint mirror_count; uint mirror_pixels[]; };
+#include "gpu/passes/lighting/lighting_places.glsl"
 
 #include "gpu/passes/lighting/lighting_words.glsl"
 #include "gpu/frame/air.glsl"
@@ -128,92 +70,7 @@ vec2 split_sum(vec3 n, vec3 v, float roughness)
     return textureLod(env_brdf, at, 0.0).rg;
 }
 
-// Numbers from here on mean a model and layers.
-const uint LIGHTING_MODEL_COUNT = 0u
-#define ROW(number_, name_) + 1u
-LIGHTING_MODELS(ROW)
-#undef ROW
-;
-
-// The answer of the surface's model. A model that nothing in the picture has is not compiled.
-const bool ONE_MODEL = (0u
-#define ROW(number_, name_) + USES_##name_
-LIGHTING_MODELS(ROW)
-#undef ROW
-) == 1u;
-
-bool model_gathers(uint model)
-{
-    bool gathers = false;
-#define ROW(number_, name_) gathers = gathers || model == uint(number_);
-    GATHERING_LIGHTING_MODELS(ROW)
-#undef ROW
-    return gathers;
-}
-
-vec3 model_compose(LitPoint p, LightSum sum)
-{
-    vec3 radiance = vec3(0.0);
-#define ROW(number_, name_)                                                \
-    if (USES_##name_ != 0u && p.model == uint(number_)) {                  \
-        radiance = name_##_compose(p, sum);                                \
-    }
-    GATHERING_LIGHTING_MODELS(ROW)
-#undef ROW
-    return radiance;
-}
-
-// One part of what a light adds to the sum.
-vec3 model_gather(LitPoint p, vec3 to_light)
-{
-    LightSum one = LightSum(vec3(0.0), vec3(0.0));
-    if (p.gathers == GATHERS_REST) return vec3(0.0);
-#define ROW(number_, name_)                                                \
-    if (USES_##name_ != 0u && p.model == uint(number_)) {                  \
-        one = name_##_gather(p, to_light);                                 \
-    }
-    GATHERING_LIGHTING_MODELS(ROW)
-#undef ROW
-    return p.gathers == GATHERS_DIFFUSE ? one.diffuse : one.specular;
-}
-
-vec3 model_light(LitPoint p, vec3 to_light)
-{
-    if (GATHERS != 0u && p.gathers != GATHERS_NOTHING_FIRST) return model_gather(p, to_light);
-    vec3 radiance = vec3(0.0);
-#define ROW(number_, name_)                                                \
-    if (USES_##name_ != 0u && (ONE_MODEL || p.model == uint(number_))) {   \
-        radiance = name_##_light(p, to_light);                             \
-    }
-    LIGHTING_MODELS(ROW)
-#undef ROW
-    return radiance;
-}
-
-Reflected model_surround(LitPoint p, Surroundings s)
-{
-    Reflected reflected = Reflected(vec3(0.0), vec3(0.0));
-#define ROW(number_, name_)                                                \
-    if (USES_##name_ != 0u && (ONE_MODEL || p.model == uint(number_))) {   \
-        reflected = name_##_surround(p, s);                                \
-    }
-    LIGHTING_MODELS(ROW)
-#undef ROW
-    return reflected;
-}
-
-vec3 model_own(LitPoint p)
-{
-    vec3 radiance = vec3(0.0);
-#define ROW(number_, name_)                                                \
-    if (USES_##name_ != 0u && (ONE_MODEL || p.model == uint(number_))) {   \
-        radiance = name_##_own(p);                                         \
-    }
-    LIGHTING_MODELS(ROW)
-#undef ROW
-    return radiance;
-}
-
+#include "gpu/passes/lighting/model_answers.glsl"
 #include "gpu/passes/lighting/two_lobes.glsl"
 #include "gpu/passes/lighting/light_rows.glsl"
 #include "gpu/passes/lighting/area_lights.glsl"
@@ -234,100 +91,12 @@ LitPoint mirroring_part(LitPoint p)
     return q;
 }
 
-// Light from all around: what of it arrives, and what a mirror would see of it.
-struct Ambient {
-    vec3 irradiance;  // over pi
-    float occlusion;  // of what is left to darken it
-    float screen;     // what near things leave of what is mirrored
-    vec3 mirrored;    // the sky's maps times this, where no probe tells more
-    vec3 unhidden;    // irradiance before what stands near takes its share
-    float open;       // 0..1: how far a mirror sees the sky
-};
-
+#include "gpu/passes/lighting/ambient.glsl"
 #include "gpu/passes/lighting/gathered_light.glsl"
 #include "gpu/passes/lighting/rough_mirror.glsl"
-
-// What near things leave of the light, by the picture.
-float screen_open(ivec2 texel)
-{
-    const uint word = texelFetch(occlusion_words, occlusion_block(texel / OCCLUSION_BLOCK, frame.size)).r;
-    return occlusion_of_word(word, uint(texel.x & 1) + 2u * uint(texel.y & 1));
-}
-
-// From the patches around; nothing (open < 0) where there are none.
-Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
-                      ivec2 texel)
-{
-    const SpreadLight light = patch_light_at(p.position, geometry, p.normal, p.view, view_m, texel);
-    Ambient a = Ambient(vec3(0.0), crevices, 1.0, vec3(1.0), light.irradiance, -1.0);
-    if (light.open < 0.0) return a;
-    a.irradiance = light.irradiance;
-    // A mirror sees about as much more or less than sky as a matt surface does.
-    const vec3 sky = sky_irradiance(p.normal);
-    a.mirrored = clamp(light.irradiance / max(sky, vec3(1.0e-6)), vec3(0.0), vec3(2.0));
-    if (AMBIENT_OCCLUSION != 0u) {
-        // Relief smaller than a patch: what the pixel sees over what its patch does, both with the
-        // light that crevices send back, both beyond what the point knows as close. The picture does not show
-        // all that is near: it takes away only.
-        const float own_open = open_beyond(screen, light.close);
-        const float mean_open = open_beyond(light.open, light.close);
-        const vec3 own = bounced_occlusion(p.albedo, own_open);
-        const vec3 mean = bounced_occlusion(p.albedo, mean_open);
-        const vec3 ratio = min(own / max(mean, vec3(0.05)), vec3(1.0));
-        a.irradiance *= vec3(with_close_light(ratio.r, light.close_light),
-                             with_close_light(ratio.g, light.close_light),
-                             with_close_light(ratio.b, light.close_light));
-        // What patches saw of near things is in the light that is mirrored, too.
-        a.screen = with_close_light(min(own_open / max(mean_open, 0.05), 1.0), light.close_light);
-    }
-    a.open = clamp(dot(a.irradiance, vec3(0.2126, 0.7152, 0.0722)) /
-                       max(dot(sky, vec3(0.2126, 0.7152, 0.0722)), 1.0e-6),
-                   0.0, 1.0);
-    return a;
-}
-
-// What crystals on snow mirror of the sun beyond the mean of its lobe, which is taken from the darker ones.
-vec3 sparkle(LitPoint p, float snow, float view_m)
-{
-    Lobe mirrors = p.lobe;
-    mirrors.diffuse = vec3(0.0);
-    const vec3 h = half_vector(p.view, frame.sun_direction);
-    const float seen_m = pixel_width_m(frame, view_m) * inversesqrt(max(p.lobe.nv, 0.05));
-    const vec2 lean = h.xz / max(abs(h.y), 0.2);
-    const float lobe = ggx_distribution(clamp(dot(p.normal, h), 0.0, 1.0), p.roughness * p.roughness);
-    const float over = snow_glints(p.position.xz, seen_m, lean, lobe) - 1.0;
-    return shade_lobe(mirrors, frame.sun_direction) * (over * snow * frame.look.snow_sparkle);
-}
-
-Ambient ambient_light(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
-                      ivec2 texel)
-{
-    if (PATCHES != 0u) {
-        const Ambient a = patch_ambient(p, geometry, crevices, screen, view_m, texel);
-        if (a.open >= 0.0) return a;
-        // Far from all patches: the open sky.
-        const vec3 sky = sky_irradiance(p.normal);
-        return Ambient(sky, crevices * screen, screen, vec3(1.0), sky, 1.0);
-    }
-    const float open =
-        AMBIENT_OCCLUSION != 0u ? sky_visibility(p.position, geometry, texel) : 1.0;
-    // Where the sky is hidden, walls and ground send some of its light on, warmer.
-    const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
-    const vec3 seen = open + (1.0 - open) * hidden;
-    const vec3 sky = sky_irradiance(p.normal) * seen;
-    return Ambient(sky, crevices * screen, screen, seen, sky, open);
-}
-
-// Lists the pixels that the pass of reflections is about: a CPU would do its work for all others, too. The order of
-// the list decides no pixel.
-void list_mirror(bool mirrors, ivec2 texel)
-{
-    const uvec4 asked = subgroupBallot(mirrors);
-    uint first = 0u;
-    if (subgroupElect()) first = atomicAdd(mirror_count, subgroupBallotBitCount(asked));
-    first = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(asked);
-    if (mirrors) mirror_pixels[first] = uint(texel.y) * 65536u + uint(texel.x);
-}
+#include "gpu/passes/lighting/ambient_light.glsl"
+#include "gpu/passes/lighting/snow_sparkle.glsl"
+#include "gpu/passes/lighting/mirror_list.glsl"
 
 void main()
 {
