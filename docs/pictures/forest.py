@@ -26,7 +26,7 @@ def forest(land_, lake, eye, draw, count):
         near = [p for i in (-1, 0, 1) for j in (-1, 0, 1) for p in cells.get((key[0] + i, key[1] + j), [])]
         if any(math.hypot(x - p[0], z - p[2]) < room + 0.10 * p[3] for p in near): continue
         # Larches, yellow in autumn, high up and in groves of their own.
-        golden = draw.random() < smooth(0.54, 0.62, fractal(x / 85, z / 85, 48, 3) + 0.0009 * h - 0.02)
+        golden = draw.random() < smooth(0.52, 0.60, fractal(x / 85, z / 85, 48, 3) + 0.0009 * h - 0.02)
         kind = 3 if golden else 1 if young else draw.choice((0, 0, 1, 2))
         cells.setdefault(key, []).append((x, h - 0.02 * high, z, high, kind))
         places.append(cells[key][-1])

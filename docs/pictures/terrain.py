@@ -340,7 +340,7 @@ def clouds(folder):
             total, share = 0.0, 0.5
             for k in range(5):
                 n = cells * 2**k
-                x, y = i * n / size, j * n / size
+                x, y = (i / size - 0.5) * n, j * n / size
                 u, v = math.floor(x), math.floor(y)
                 wrap = lambda a, b: noise(a % n, b % n, 301 + k)
                 s, t = smooth(0, 1, x - u), smooth(0, 1, y - v)
