@@ -98,16 +98,25 @@ SHARED_FN CloudMet cloud_met(vec2 bent, vec2 through, float footprint, float edg
     CloudMet met;
     met.above = -1.0f;
     met.up = 0.0f;
-    float before = -1.0f;
+    const float pace = 1.0f / float(kCloudSteps - 1);
+    float two_before = -1.0f, before = -1.0f;
     bool inside = false;
     for (int i = 0; i < steps; ++i) {
-        const float up = float(i) / float(kCloudSteps - 1);
+        const float up = pace * float(i);
         const float above = cloud_field(bent + through * up, footprint, kHeapOctaves) - edge - cloud_rise(up);
         if (!inside && above > met.above) met.up = up;
         // Between two steps where the field passes its threshold.
-        if (!inside && above > 0.0f && i > 0) met.up = up - above / (above - before) * (1.0f / float(kCloudSteps - 1));
-        inside = inside || above > 0.0f;
+        if (!inside && above > 0.0f && i > 0) met.up = up - above / (above - before) * pace;
         met.above = max(met.above, above);
+        // Between steps where a way that misses all comes closest, as if along a parabola: else edges have a stair for each step.
+        if (i > 1 && before > max(two_before, above)) {
+            const float aside = 0.5f * (two_before - above) / (two_before - 2.0f * before + above);
+            const float peak = before - 0.25f * (two_before - above) * aside;
+            if (!inside && peak > met.above) met.up = up + (aside - 1.0f) * pace;
+            met.above = max(met.above, peak);
+        }
+        inside = inside || above > 0.0f;
+        two_before = before;
         before = above;
     }
     return met;

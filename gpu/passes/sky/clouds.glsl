@@ -53,9 +53,9 @@ CloudSeen cloud_seen(SkyParams sky, vec3 direction)
     const float tall = min(cloud_tall(sky.cloud_cover), 0.75 / reach);
     const vec2 through = (direction.xz * reach * 2.2 + kCloudLean) * tall;
     const int steps = tall > 0.0 ? kCloudSteps : 1;
-    // Towards the sun: over a cloud's half width in a closed layer, a third of the heaps upwards in an open one.
+    // Towards the sun: over a cloud's half width, and upwards in heaps.
     const vec2 sunward = 0.16 * sky.sun_direction.xz / max(sky.sun_direction.y, 0.35);
-    const float rising = tall > 0.0 ? min(0.16 / 2.2 / tall * max(sky.sun_direction.y, 0.0) / max(length(sky.sun_direction.xz), 0.2), 0.35) : 0.0;
+    const float rising = tall > 0.0 ? min(0.16 * max(sky.sun_direction.y, 0.0) / max(sky.sun_direction.y, 0.35) / (2.2 * tall), 0.35) : 0.0;
     // Loops, which are left when no texel of a group needs them: a branch is not.
     for (int once = 0; once < (sky.cloud_cover > 0.0 ? 1 : 0); ++once) {
         const vec2 bent = at + cloud_bend(at);
@@ -63,8 +63,8 @@ CloudSeen cloud_seen(SkyParams sky, vec3 direction)
         seen.up = met.up;
         for (int near = 0; near < (met.above > -0.09 ? 1 : 0); ++near) {
             const vec2 there = bent + through * met.up;
-            // What is finer than the heaps is on the flank that is met.
-            const float rough = tall > 0.0 ? cloud_lumps(there, 2.2 * tall * met.up, footprint)
+            // What is finer than the heaps is on the flank that is met; tops are seen at a slant.
+            const float rough = tall > 0.0 ? cloud_lumps(there, 2.2 * tall * met.up, 1.5 * footprint)
                                            : cloud_field(there, footprint, kCloudOctaves) - cloud_field(there, footprint, kHeapOctaves);
             const float above = met.above + rough;
             seen.crease = tall > 0.0 ? 1.0 - smoothstep(-0.05, 0.04, rough) : 0.0;
