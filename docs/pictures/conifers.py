@@ -1,5 +1,5 @@
-"""Spruces and larches a metre high for docs/pictures/terrain.py: whorls of boughs that are cards with holes, a trunk, and for
-trees far away a picture of such a tree on three upright cards.
+"""Spruces and larches a metre high for docs/pictures/forest.py: whorls of boughs that are cards with holes, a trunk, and for
+trees far away outlines of three sides with the picture of such a tree.
 """
 import math
 import random
@@ -96,15 +96,14 @@ def bough(mesh, at, turn, reach, rise, hang, pieces, wide):
     spine = []
     for k in range(pieces + 1):
         t = k / pieces
-        spine.append((t, reach * t, at + reach * (rise * t - 0.30 * t * (1 - t) * 2)))
+        spine.append((t, reach * t, at + reach * (rise * t - 0.6 * t * (1 - t))))
     for wing in (-1, 1):
-        edge = lambda t, r, y: (r, y, wing * wide * reach * math.cos(hang), -wide * reach * math.sin(hang))
-        place = lambda r, y, s, fall: [r * out[0] + s * side[0], y + fall, r * out[1] + s * side[1]]
+        aside, fall = wing * wide * reach * math.cos(hang), -wide * reach * math.sin(hang)
+        place = lambda r, y, s: [r * out[0] + s * aside * side[0], y + s * fall, r * out[1] + s * aside * side[1]]
         # As of a round crown, and from above.
         look = lambda s: [0.75 * out[0] + s * wing * 0.45 * side[0], 0.6, 0.75 * out[1] + s * wing * 0.45 * side[1]]
         for (t0, r0, y0), (t1, r1, y1) in zip(spine, spine[1:]):
-            a, b = edge(t0, r0, y0), edge(t1, r1, y1)
-            mesh.card([place(r0, y0, 0, 0), place(r1, y1, 0, 0), place(*b), place(*a)],
+            mesh.card([place(r0, y0, 0), place(r1, y1, 0), place(r1, y1, 1), place(r0, y0, 1)],
                       [[t0, 0], [t1, 0], [t1, 1], [t0, 1]], [look(0), look(0), look(1), look(1)])
 
 
@@ -179,7 +178,7 @@ def tree_picture(crown, trunk, bough_rows):
 
 
 def far_tree(seed, column, columns, girth, low, wide):
-    """Three upright outlines of boughs with one column of the picture of all trees, shaded as if round. Outlines and not cards
+    """Outlines of boughs on three upright planes with one column of the picture of all trees, shaded as if round. Outlines and not cards
     with holes: of a tree a few texels wide the holes of a small level leave a pillar."""
     draw, mesh, tiers = random.Random(seed), Mesh(), 9
     for k in range(3):

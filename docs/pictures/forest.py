@@ -26,14 +26,14 @@ def forest(land_, lake, eye, draw, count):
         near = [p for i in (-1, 0, 1) for j in (-1, 0, 1) for p in cells.get((key[0] + i, key[1] + j), [])]
         if any(math.hypot(x - p[0], z - p[2]) < room + 0.10 * p[3] for p in near): continue
         # Larches, yellow in autumn, high up and in groves of their own.
-        golden = draw.random() < smooth(0.52, 0.60, fractal(x / 85, z / 85, 48, 3) + 0.0009 * h - 0.02)
-        kind = 3 if golden else 1 if young else draw.choice((0, 0, 1, 2))
+        larch = draw.random() < smooth(0.52, 0.60, fractal(x / 85, z / 85, 48, 3) + 0.0009 * h - 0.02)
+        kind = 3 if larch else 1 if young else draw.choice((0, 0, 1, 2))
         cells.setdefault(key, []).append((x, h - 0.02 * high, z, high, kind))
         places.append(cells[key][-1])
     return places
 
 
-# Height at which the forest is seen in full, with fewer cards, and as pictures of trees.
+# Trees nearer than this have all their boughs, those nearer than that fewer; beyond they are outlines.
 NEAR_M, MIDDLE_M = 190.0, 420.0
 # Whorls, boughs of each, reach of the lowest, height where they begin, how far the wings of a bough reach.
 SPECIES = [(36, 7, 0.150, 0.06, 0.40), (28, 7, 0.200, 0.03, 0.42), (38, 6, 0.118, 0.14, 0.42), (30, 6, 0.165, 0.10, 0.30)]
