@@ -58,7 +58,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 67;
+SHARED_CONST int kProbeKinds = 68;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -605,6 +605,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 66) {
         const float wall = drinking_wall(2.0f * a.x - 1.0f, a.y);
         return vec4(wall, film_not_drunk(wall, a.z), soaked_share(b.x, 30.0f * b.y - 15.0f, 12.0f * b.z), soaked_share(c.x, c.y, c.z));
+    }
+    if (kind == 67) {
+        const CloudMet met = cloud_met(20.0f * vec2(a.x, a.y), 3.0f * vec2(a.z, a.w), 0.3f * b.x, 0.5f + 0.3f * b.y, 1 + int(5.999f * b.z));
+        return vec4(met.above, met.above > 0.001f ? met.up : 0.0f, cloud_lumps(20.0f * vec2(c.x, c.y), 2.0f * c.z, 0.1f * c.w),
+                    cloud_tall(b.w) + cloud_rise(c.w));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

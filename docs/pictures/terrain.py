@@ -11,7 +11,8 @@ import sys
 import zlib
 
 from eroded import bed, erode, fractal, noise, smooth
-from plants import boulder, conifer, tuft
+from forest import forest, shaded_ground, woods
+from plants import boulder, tuft
 
 SIDE_M = 2400.0
 NODES = 241        # a side, of what rivers cut
@@ -117,13 +118,15 @@ class Land:
         return math.hypot(self.smoothed(x + 5, z) - self.smoothed(x - 5, z),
                           self.smoothed(x, z + 5) - self.smoothed(x, z - 5)) / 10
 
-    def height(self, x, z):
-        """What rivers cut, and on what is steep the crags that are finer than their grid."""
+    def height(self, x, z, cell_m=0.0):
+        """What rivers cut, and on what is steep the crags that are finer than their grid. Those that cells of a mesh are too wide
+        for are their mean there: they would stand in its rows."""
         h = self.smoothed(x, z)
         steep = smooth(0.35, 1.1, self.slope(x, z))
         crag, share, p, q = 0.0, 1.0, x / 33.0, z / 33.0
         for k in range(4):
-            crag += share * (1 - 2 * abs(noise(p, q, 61 + k) - 0.5))
+            seen = smooth(1.0, 2.4, 33.0 / 2**k / max(cell_m, 1e-3))
+            crag += share * (0.65 + seen * (0.35 - 2 * abs(noise(p, q, 61 + k) - 0.5)))
             p, q, share = 1.6 * p - 1.2 * q, 1.2 * p + 1.6 * q, 0.52 * share
         shore = smooth(0.4, 3.0, abs(h))
         return h + 9.0 * steep * (crag - 1.2) + 1.1 * shore * (fractal(x / 17, z / 17, 81, 3) - 0.5)
@@ -175,11 +178,12 @@ class Glb:
         self.meshes.append({"primitives": primitives})
         return len(self.meshes) - 1
 
-    def write(self, path, materials):
+    def write(self, path, materials, images):
         gltf = {"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_mesh_gpu_instancing"], "scene": 0,
                 "scenes": [{"nodes": list(range(len(self.nodes)))}], "nodes": self.nodes, "materials": materials,
                 "meshes": self.meshes, "buffers": [{"byteLength": len(self.data)}], "bufferViews": self.views,
-                "accessors": self.accessors}
+                "accessors": self.accessors,
+                "images": [{"uri": name} for name in images], "textures": [{"source": k} for k in range(len(images))]}
         text = json.dumps(gltf).encode()
         text += b" " * (-len(text) % 4)
         with open(path, "wb") as out:
@@ -191,7 +195,8 @@ class Glb:
 def mesh_of(land_):
     n = CELLS + 1
     xs, zs = spacing(-SIDE_M / 2, SIDE_M / 2, EYE[0], CELLS), spacing(-SIDE_M / 2, SIDE_M / 2, EYE[1], CELLS)
-    h = [[land_.height(x, z) for x in xs] for z in zs]
+    wide = lambda at, k: at[min(k + 1, CELLS)] - at[max(k - 1, 0)]
+    h = [[land_.height(x, z, 0.5 * max(wide(xs, i), wide(zs, j))) for i, x in enumerate(xs)] for j, z in enumerate(zs)]
     positions, normals, uvs, indices = [], [], [], []
     for j in range(n):
         for i in range(n):
@@ -221,53 +226,43 @@ def near_eye(land_, draw, count, reach_m, low, high, stands):
     return places
 
 
-def forest(land_, draw, count):
-    places = []
-    while len(places) < count:
-        x, z = draw.uniform(-1000, 1000), draw.uniform(-800, 1150)
-        h = land_.height(x, z)
-        if h < 3.0 or math.hypot(x - EYE[0], z - EYE[1]) < 40: continue
-        steep = land_.slope(x, z)
-        stands = smooth(0.49, 0.58, fractal(x / 190, z / 190, 41, 4) + 0.12 * smooth(0.05, 0.3, steep) - 0.05)
-        stands *= smooth(1.05, 0.75, steep) * smooth(235, 150, h + 60 * (fractal(x / 60, z / 60, 45, 3) - 0.5))
-        stands *= smooth(0.06, 0.2, lake(x, z)) + 0.0
-        if draw.random() > max(stands, 0.006 * (h < 230)): continue
-        # Smaller where it is cold.
-        places.append((x, h - 0.3, z, draw.uniform(9, 19) * (1 - 0.5 * smooth(90, 240, h))))
-    return places
-
-
-def glb(path, land_):
+def glb(folder, land_, trees):
     draw, out = random.Random(5), Glb()
     out.nodes.append({"mesh": out.mesh([mesh_of(land_)]), "name": "land"})
     s = SIDE_M / 2
     out.nodes.append({"mesh": out.mesh([([-s, 0, s, s, 0, s, s, 0, -s, -s, 0, -s], [0, 1, 0] * 4,
                                          [0, 1, 1, 1, 1, 0, 0, 0], [0, 1, 2, 0, 2, 3], 1)]), "name": "lake"})
-    places = forest(land_, draw, 4300)
     patch = lambda x, z: fractal(x / 23, z / 23, 47, 4)
     straw = near_eye(land_, draw, 7500, 150, 0.3, 0.8, lambda x, z: smooth(0.42, 0.60, patch(x, z)))
     green = near_eye(land_, draw, 5000, 110, 0.2, 0.5, lambda x, z: smooth(0.58, 0.40, patch(x, z)))
     stones = near_eye(land_, draw, 260, 520, 0.35, 4.5, lambda x, z: smooth(0.48, 0.66, fractal(x / 55, z / 55, 49, 4)))
-    spread = [(conifer(draw, 6, 2), places[0::3]), (conifer(draw, 6, 2), places[1::3]), (conifer(draw, 6, 2), places[2::3]),
-              (tuft(draw, 10, 3), straw[0::2]), (tuft(draw, 8, 3), straw[1::2]), (tuft(draw, 9, 4), green),
-              (boulder(draw, 5), stones[0::3]), (boulder(draw, 5), stones[1::3]), (boulder(draw, 5), stones[2::3])]
-    for k, (kind, here) in enumerate(spread):
+    save = lambda name, rows: png(f"{folder}/{name}", len(rows[0]), len(rows), 4, [
+        [v for c in row for v in (code(c[0]), code(c[1]), code(c[2]), round(255 * c[3]))] for row in rows])
+    spread = woods(trees, EYE, 2, 6, 7, 8, save)
+    spread += [([tuft(draw, 10, 3)], straw[0::2]), ([tuft(draw, 8, 3)], straw[1::2]), ([tuft(draw, 9, 4)], green),
+               ([boulder(draw, 5)], stones[0::3]), ([boulder(draw, 5)], stones[1::3]), ([boulder(draw, 5)], stones[2::3])]
+    for k, (parts, here) in enumerate(spread):
         moves, turns, sizes = [], [], []
         for x, y, z, size in here:
             turn, wide = draw.uniform(0, math.pi), size * draw.uniform(0.85, 1.25)
             moves += [x, y, z]
             turns += [0, math.sin(turn), 0, math.cos(turn)]
             sizes += [wide, size, wide]
-        out.nodes.append({"mesh": out.mesh([kind]), "name": f"on the land {k}", "extensions": {"EXT_mesh_gpu_instancing": {
+        out.nodes.append({"mesh": out.mesh(parts), "name": f"on the land {k}", "extensions": {"EXT_mesh_gpu_instancing": {
             "attributes": {"TRANSLATION": out.numbers(moves, "VEC3"), "ROTATION": out.numbers(turns, "VEC4"),
                            "SCALE": out.numbers(sizes, "VEC3")}}}})
     matt = lambda color, roughness: {"baseColorFactor": [*color, 1], "roughnessFactor": roughness, "metallicFactor": 0}
-    out.write(path, [{"name": "land", "pbrMetallicRoughness": matt((1, 1, 1), 0.95)},
+    leaf = lambda name, color, texture: {"name": name, "alphaMode": "MASK", "alphaCutoff": 0.5, "pbrMetallicRoughness": {
+        **matt(color, 0.85), "baseColorTexture": {"index": texture}}}
+    out.write(f"{folder}/terrain.glb", [{"name": "land", "pbrMetallicRoughness": matt((1, 1, 1), 0.95)},
                      {"name": "lake", "pbrMetallicRoughness": matt((0.006, 0.012, 0.012), 0.05)},
-                     {"name": "spruce", "doubleSided": True, "pbrMetallicRoughness": matt((0.016, 0.026, 0.012), 0.9)},
+                     leaf("spruce", (1, 1, 1), 0),
                      {"name": "dry grass", "pbrMetallicRoughness": matt((0.200, 0.145, 0.060), 0.8)},
                      {"name": "green grass", "pbrMetallicRoughness": matt((0.070, 0.088, 0.024), 0.8)},
-                     {"name": "boulder", "pbrMetallicRoughness": matt((0.170, 0.162, 0.155), 0.9)}])
+                     {"name": "boulder", "pbrMetallicRoughness": matt((0.170, 0.162, 0.155), 0.9)},
+                     leaf("larch", (1, 1, 1), 1), {"name": "bark", "pbrMetallicRoughness": matt((0.055, 0.042, 0.033), 0.95)},
+                     {"name": "far trees", "pbrMetallicRoughness": {**matt((1, 1, 1), 0.85), "baseColorTexture": {"index": 2}}}],
+              ["terrain_bough.png", "terrain_larch.png", "terrain_trees.png"])
 
 
 # ---- its maps ----------------------------------------------------------------------------------
@@ -275,15 +270,15 @@ def glb(path, land_):
 # Linear colours from afar.
 MEADOW, DRY, HEATH = (0.056, 0.074, 0.020), (0.165, 0.128, 0.050), (0.092, 0.066, 0.028)
 ROCK, PALE_ROCK, WARM_ROCK = (0.085, 0.082, 0.082), (0.190, 0.178, 0.165), (0.150, 0.112, 0.085)
-SCREE, MUD = (0.150, 0.142, 0.132), (0.055, 0.046, 0.034)
+SCREE, MUD, NEEDLES = (0.150, 0.142, 0.132), (0.055, 0.046, 0.034), (0.030, 0.024, 0.015)
 
 
 def mixed(a, b, t):
     return tuple(p * (1 - t) + q * t for p, q in zip(a, b))
 
 
-def ground(land_, x, z, h, steep, hollow):
-    """Weights of grass, rock, gravel and mud at a place, and its colour from afar."""
+def ground(land_, x, z, h, steep, hollow, below):
+    """Weights of grass, rock, gravel and mud at a place, and its colour from afar. below: 0..1, below trees."""
     patch = fractal(x / 75, z / 75, 131, 6)
     fine = fractal(x / 14, z / 14, 151, 3)
     hard = bed(x, h, z, SIDE_M)
@@ -294,6 +289,7 @@ def ground(land_, x, z, h, steep, hollow):
     shore = smooth(2.2, 0.5, h)
     gravel = max(gravel, (1 - rock) * shore * smooth(0.35, 0.6, fine))
     mud = (1 - rock - gravel) * max(shore, smooth(0.60, 0.70, patch + 0.3 * (fine - 0.5) + 0.1 * wet - 0.1 * steep))
+    mud += 0.75 * below * (1 - rock - gravel - mud)
     grass = max(0.0, 1 - rock - gravel - mud)
     dry = smooth(0.36, 0.62, fractal(x / 130, z / 130, 201, 5) + 0.0011 * h - 0.12 * wet - 0.06 * hollow)
     heath = smooth(0.52, 0.64, fractal(x / 95, z / 95, 211, 5) + 0.0004 * h)
@@ -305,17 +301,19 @@ def ground(land_, x, z, h, steep, hollow):
     stone = tuple(c * (1 - stained) for c in stone)
     shares = (grass, rock, gravel, mud)
     vary = (0.62 + 0.76 * fractal(x / 9, z / 9, 231, 3)) * (1 + 0.16 * max(-1.0, min(1.0, -hollow)))
-    return shares, tuple(vary * (grass * turf[c] + rock * stone[c] + gravel * SCREE[c] + mud * MUD[c]) for c in range(3))
+    return shares, tuple(vary * (grass * turf[c] + rock * stone[c] + gravel * SCREE[c] + mud * MUD[c]) * (1 - below) +
+                         vary * below * NEEDLES[c] for c in range(3))
 
 
 def code(linear):
     return round(255 * max(0.0, min(1.0, 1.055 * max(linear, 0.0) ** (1 / 2.4) - 0.055)))
 
 
-def maps(folder, land_):
+def maps(folder, land_, trees):
     step = SIDE_M / MAP
     at = lambda k: (k + 0.5) * step - SIDE_M / 2
     h = [[land_.height(at(i), at(j)) for i in range(MAP)] for j in range(MAP)]
+    below = shaded_ground(trees, SIDE_M, MAP)
     control, far = [], []
     for j in range(MAP):
         weights, colors = [], []
@@ -323,7 +321,7 @@ def maps(folder, land_):
             a, b, c, d = max(i - 1, 0), min(i + 1, MAP - 1), max(j - 1, 0), min(j + 1, MAP - 1)
             steep = math.hypot((h[j][b] - h[j][a]) / (b - a), (h[d][i] - h[c][i]) / (d - c)) / step
             near = 0.25 * (h[max(j - 4, 0)][i] + h[min(j + 4, MAP - 1)][i] + h[j][max(i - 4, 0)] + h[j][min(i + 4, MAP - 1)])
-            shares, color = ground(land_, at(i), at(j), h[j][i], steep, (near - h[j][i]) / 3)
+            shares, color = ground(land_, at(i), at(j), h[j][i], steep, (near - h[j][i]) / 3, below[j * MAP + i])
             weights += [max(0, min(255, round(255 * s))) for s in shares]
             colors += [code(v) for v in color]
         control.append(weights)
@@ -342,7 +340,7 @@ def clouds(folder):
             total, share = 0.0, 0.5
             for k in range(5):
                 n = cells * 2**k
-                x, y = i * n / size, j * n / size
+                x, y = (i / size - 0.5) * n, j * n / size
                 u, v = math.floor(x), math.floor(y)
                 wrap = lambda a, b: noise(a % n, b % n, 301 + k)
                 s, t = smooth(0, 1, x - u), smooth(0, 1, y - v)
@@ -356,9 +354,11 @@ def clouds(folder):
 
 def main():
     land_ = Land()
-    glb(f"{sys.argv[1]}/terrain.glb", land_)
-    maps(sys.argv[1], land_)
+    trees = forest(land_, lake, EYE, random.Random(5), 9000)
+    glb(sys.argv[1], land_, trees)
+    maps(sys.argv[1], land_, trees)
     clouds(sys.argv[1])
 
 
-main()
+if __name__ == "__main__":
+    main()

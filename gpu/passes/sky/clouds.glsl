@@ -31,33 +31,51 @@ struct CloudSeen {
     float depth;   // of cloud along the way, optical, about
     float sunward; // the same from there towards the sun
     float heavy;   // 0 the thinnest of the layer .. 1 the thickest
+    float up;      // 0 at the base .. 1 at the top of the tallest
+    float crease;  // 1 in creases between lumps of a heap .. 0 on them
 };
 
 // Octaves that shade; all of them cut the edge.
 const int kShadeOctaves = 4;
+// A heap leans: else what is fine on its flanks would be stripes from the base to the top. Lengths of the field by its height.
+const vec2 kCloudLean = vec2(0.62, 0.34);
 
 CloudSeen cloud_seen(SkyParams sky, vec3 direction)
 {
-    CloudSeen seen = CloudSeen(0.0, 0.0, 0.0, 0.5);
+    CloudSeen seen = CloudSeen(0.0, 0.0, 0.0, 0.5, 0.0, 0.0);
     const float reach = cloud_reach(max(direction.y, 0.0));
     const vec2 at = direction.xz * reach * 2.2 + sky.time_s * sky.wind_m_s * 0.0015 + 40.0;
     // A texel's angle, seen slantwise.
     const float footprint = 2.2 * CLOUD_TEXEL_RAD * reach * reach;
     const float full = smoothstep(0.75, 1.0, sky.cloud_cover);
     const float edge = cloud_threshold(sky.cloud_cover) - 0.5 * full;
-    // Towards the sun, over a cloud's half width.
+    // Heaps, and the way through them: low over the horizon they are as tall as the steps can follow.
+    const float tall = min(cloud_tall(sky.cloud_cover), 0.75 / reach);
+    const vec2 through = (direction.xz * reach * 2.2 + kCloudLean) * tall;
+    const int steps = tall > 0.0 ? kCloudSteps : 1;
+    // Towards the sun: over a cloud's half width, and upwards in heaps.
     const vec2 sunward = 0.16 * sky.sun_direction.xz / max(sky.sun_direction.y, 0.35);
+    const float rising = tall > 0.0 ? min(0.16 * max(sky.sun_direction.y, 0.0) / max(sky.sun_direction.y, 0.35) / (2.2 * tall), 0.35) : 0.0;
     // Loops, which are left when no texel of a group needs them: a branch is not.
     for (int once = 0; once < (sky.cloud_cover > 0.0 ? 1 : 0); ++once) {
         const vec2 bent = at + cloud_bend(at);
-        const float above = cloud_field(bent, footprint, kCloudOctaves) - edge;
-        seen.hides = smoothstep(0.0, mix(0.11, 0.3, full), above);
-        seen.depth = max(above, 0.0) / 0.25;
-        // Through the air before them far ones have less contrast.
-        seen.heavy = mix(0.5, smoothstep(0.32, 1.0, above + edge), exp(-0.13 * reach));
-        for (int lit = 0; lit < (seen.hides > 0.0 ? 1 : 0); ++lit)
-            seen.sunward =
-                max(cloud_field(bent + sunward, max(footprint, 0.1), kShadeOctaves) - edge, 0.0) / 0.25;
+        const CloudMet met = cloud_met(bent, through, footprint, edge, steps);
+        seen.up = met.up;
+        for (int near = 0; near < (met.above > -0.09 ? 1 : 0); ++near) {
+            const vec2 there = bent + through * met.up;
+            // What is finer than the heaps is on the flank that is met; tops are seen at a slant.
+            const float rough = tall > 0.0 ? cloud_lumps(there, 2.2 * tall * met.up, 1.5 * footprint)
+                                           : cloud_field(there, footprint, kCloudOctaves) - cloud_field(there, footprint, kHeapOctaves);
+            const float above = met.above + rough;
+            seen.crease = tall > 0.0 ? 1.0 - smoothstep(-0.05, 0.04, rough) : 0.0;
+            seen.hides = smoothstep(0.0, mix(0.11, 0.3, full), above);
+            seen.depth = max(above, 0.0) / 0.25;
+            // Through the air before them far ones have less contrast.
+            seen.heavy = mix(0.5, smoothstep(0.32, 1.0, above + edge), exp(-0.13 * reach));
+            for (int lit = 0; lit < (seen.hides > 0.0 ? 1 : 0); ++lit)
+                seen.sunward = max(cloud_field(there + sunward, max(footprint, 0.1), kShadeOctaves) - edge -
+                                       (tall > 0.0 ? cloud_rise(met.up + rising) : 0.0), 0.0) / 0.25;
+        }
         // Where even the widest are smaller than a texel: the share of the layer.
         seen.hides = mix(sky.cloud_cover, seen.hides, clamp(1.6 - 0.8 * footprint, 0.0, 1.0));
     }
@@ -75,10 +93,10 @@ vec3 cloud_radiance(SkyParams sky, vec3 direction, CloudSeen cloud, vec3 clear_z
     // it is thick.
     const float towards = max(dot(direction, sky.sun_direction), 0.0);
     const float thin = exp(-2.2 * cloud.depth);
-    const float reached = 0.18 + 0.82 * exp(-1.6 * cloud.sunward);
+    const float reached = (0.09 + 0.91 * exp(-3.2 * cloud.sunward)) * (1.0 - 0.3 * cloud.crease);
     const vec3 lit = sky.sun_at_ground * reached *
-                         (0.20 + thin * (0.10 + 0.45 * pow(towards, 10.0) + 1.2 * pow(towards, 80.0))) +
-                     sky.clear_level * (0.55 / 3.14159265) + sky.ground_radiance * 0.25 + clear_zenith * 0.3;
+                         (0.26 + thin * (0.06 + 0.45 * pow(towards, 10.0) + 1.2 * pow(towards, 80.0))) +
+                     sky.clear_level * ((0.35 + 0.3 * cloud.up) / 3.14159265) + sky.ground_radiance * 0.25 + clear_zenith * 0.3;
     const float grey = smoothstep(0.35, 0.95, c);
     const float relief = mix(1.32, 0.68, cloud.heavy);
     return mix(lit * mix(1.0, 0.72, clamp(cloud.depth * 0.6, 0.0, 1.0)), overcast * relief, grey);
