@@ -59,7 +59,8 @@ CloudSeen cloud_seen(SkyParams sky, vec3 direction)
     // Loops, which are left when no texel of a group needs them: a branch is not.
     for (int once = 0; once < (sky.cloud_cover > 0.0 ? 1 : 0); ++once) {
         const vec2 bent = at + cloud_bend(at);
-        const CloudMet met = cloud_met(bent, through, footprint, edge, steps);
+        // No finer than the steps of the way: else heaps have a shelf for each.
+        const CloudMet met = cloud_met(bent, through, max(footprint, 0.12 * length(through)), edge, steps);
         seen.up = met.up;
         for (int near = 0; near < (met.above > -0.09 ? 1 : 0); ++near) {
             const vec2 there = bent + through * met.up;
