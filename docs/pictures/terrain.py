@@ -233,13 +233,13 @@ def glb(folder, land_, trees):
     out.nodes.append({"mesh": out.mesh([([-s, 0, s, s, 0, s, s, 0, -s, -s, 0, -s], [0, 1, 0] * 4,
                                          [0, 1, 1, 1, 1, 0, 0, 0], [0, 1, 2, 0, 2, 3], 1)]), "name": "lake"})
     patch = lambda x, z: fractal(x / 23, z / 23, 47, 4)
-    straw = near_eye(land_, draw, 7500, 150, 0.3, 0.8, lambda x, z: smooth(0.42, 0.60, patch(x, z)))
-    green = near_eye(land_, draw, 5000, 110, 0.2, 0.5, lambda x, z: smooth(0.58, 0.40, patch(x, z)))
+    straw = near_eye(land_, draw, 16000, 170, 0.35, 0.9, lambda x, z: smooth(0.42, 0.60, patch(x, z)))
+    green = near_eye(land_, draw, 12000, 140, 0.25, 0.6, lambda x, z: smooth(0.58, 0.40, patch(x, z)))
     stones = near_eye(land_, draw, 260, 520, 0.35, 4.5, lambda x, z: smooth(0.48, 0.66, fractal(x / 55, z / 55, 49, 4)))
     save = lambda name, rows: png(f"{folder}/{name}", len(rows[0]), len(rows), 4, [
         [v for c in row for v in (code(c[0]), code(c[1]), code(c[2]), round(255 * c[3]))] for row in rows])
     spread = woods(trees, EYE, 2, 6, 7, 8, save)
-    spread += [([tuft(draw, 10, 3)], straw[0::2]), ([tuft(draw, 8, 3)], straw[1::2]), ([tuft(draw, 9, 4)], green),
+    spread += [([tuft(draw, 13, 3)], straw[0::2]), ([tuft(draw, 11, 3)], straw[1::2]), ([tuft(draw, 12, 4)], green),
                ([boulder(draw, 5)], stones[0::3]), ([boulder(draw, 5)], stones[1::3]), ([boulder(draw, 5)], stones[2::3])]
     for k, (parts, here) in enumerate(spread):
         moves, turns, sizes = [], [], []
