@@ -599,10 +599,10 @@ TEST(TextureBuild, LevelsAreThoseOfWhatTheMetallicMapSays)
 TEST(TextureBuild, ASecondLobeGoesWithTheNormals)
 {
     const Workplace place("build-lobes");
-    const texproc::MaterialMaps plate = texproc::generate_material(texproc::MaterialKind::MetalPlate, 32, 3, 1);
+    const texproc::MaterialMaps plate = texproc::generate_material(texproc::MaterialKind::MetalPlate, 64, 3, 1);
     texproc::write_image(place / "in/plate_normal.png", plate.normal);
     texproc::write_image(place / "in/plate_roughness.png", plate.roughness);
-    texproc::write_image(place / "in/plate_metallic.png", Image(32, 32, 1, ColorSpace::Data, 1.0f));
+    texproc::write_image(place / "in/plate_metallic.png", Image(64, 64, 1, ColorSpace::Data, 1.0f));
     const auto built = [&](const std::string& lobes) {
         const Outcome made = run({"texture", "build", "in", "--engine", "unreal", "--quality", "full", "--lobes", lobes,
                                   "-o", "out" + lobes},
@@ -625,7 +625,7 @@ TEST(TextureBuild, ASecondLobeGoesWithTheNormals)
     ASSERT_EQ(lobe.channels, 4);
     const Image a = to_image(lobe, ColorSpace::Data), b = to_image(normal, ColorSpace::Data),
                 r = to_image(rough, ColorSpace::Data);
-    for (int i = 0; i < 32; ++i) {  // level 0: both lobes are the same
+    for (int i = 0; i < 64; ++i) {  // level 0: both lobes are the same
         EXPECT_NEAR(a.at(i, i, 0), b.at(i, i, 0), 0.003f);
         EXPECT_NEAR(a.at(i, i, 1), b.at(i, i, 1), 0.003f);
         EXPECT_NEAR(a.at(i, i, 2), r.at(i, i, 0), 0.003f);
