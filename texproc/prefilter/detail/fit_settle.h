@@ -24,8 +24,8 @@ struct Fits {
 /// Keeps of the fits, level by level, what pictures like best: which fit, how much of it and of metal's
 /// share. The pictures of `bench` are to be near to the truth in the mean, and none of them farther from it
 /// than with plain mips, as far as that can be had. Two lobes on anything but metal are guarded: those of
-/// guard_pictures() are to be no farther from it either, and how dark the base colour is, how much of the second lobe's share is
-/// kept and how far what was before goes back to plain mips are chosen with them.
+/// guard_pictures() are to be no farther from it either, and how dark the base colour is, how much of the
+/// second lobe's share is kept and how far what was before goes back to plain mips are chosen with them.
 ///
 ///   chain  as it was before the fits, with parts of the right sizes; changed to what is kept
 void keep_of_fits(const PictureBench& bench, const Fits& fits, const PrefilterOptions& options,
