@@ -178,6 +178,31 @@ TEST(PictureYardstick, AMixtureOfLevelsIsTheMixedChain)
     same(mixed);
 }
 
+// Rows that see no level which has changed are remembered.
+TEST(PictureYardstick, ARetakenChainScoresAsItDoesAtOnce)
+{
+    const ScoredMaps maps = material("facets", 5);
+    const PictureBench first(maps.normal, maps.roughness, {}, small(4));
+    PictureOptions other = small(3);
+    other.views[0].height_m = 2.5;
+    const PictureBench bench(first, other), alone(maps.normal, maps.roughness, {}, other);
+    Prefiltered chain = prefilter_raw(maps.normal, maps.roughness, {.rule = "picture", .quick = true});
+    PictureBench::Retake retake(bench);
+    const auto same = [&](std::uint32_t changed) {
+        const auto a = alone.score(chain), b = retake.score(chain, changed);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            EXPECT_EQ(a[i].rmse, b[i].rmse) << a[i].name;
+            EXPECT_EQ(a[i].flicker, b[i].flicker) << a[i].name;
+        }
+        return b[0].rmse;
+    };
+    const double before = same(0);
+    for (float& p : chain.roughness[2].pixels) p *= 0.5f;
+    EXPECT_NE(same(1u << 2), before);
+    for (float& share : chain.base_share[3].pixels) share = 0.5f;
+    same(1u << 3);
+}
+
 TEST(PictureYardstick, AMapThatGlossesOverItsSlopesIsWorseThanPlain)
 {
     const ScoredMaps maps = material("mica", 3);

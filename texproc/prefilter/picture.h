@@ -71,6 +71,11 @@ PictureOptions drawn_pictures(std::uint32_t seed);
 /// of one tap; quick: four suns on paint and a window, two views less, of any class.
 PictureOptions design_pictures(bool quick = false, SurfaceClass surface = SurfaceClass::Both);
 
+/// Small ones of eight views that are drawn, each under eight lights (of metal seven): suns from all sides at a
+/// height that is drawn, on paint some of them and on metal all beside a sky, and a window. With them the rule
+/// picture makes sure that what it fitted is worse than plain mips in none. The seeds of drawn_pictures() draw others.
+PictureOptions guard_pictures(SurfaceClass surface);
+
 /// One case of one material: display-referred, 0..1.
 struct PictureScore {
     std::string name;      ///< view, light and material
@@ -83,6 +88,8 @@ class PictureBench {
 public:
     /// A chain between plain mips and another one, held against the truth again and again.
     class Blend;
+    /// A chain of which few levels change from one score to the next.
+    class Retake;
 
     /// normal, roughness: level 0 as `input` names it. Throws Error when sizes do not fit.
     PictureBench(const RawImage& normal, const RawImage& roughness, const PrefilterOptions& input,
@@ -90,6 +97,8 @@ public:
     /// The same from maps that are decoded row by row.
     PictureBench(const detail::MapSurface& surface, const PrefilterOptions& input,
                  PictureOptions options);
+    /// Other pictures of the same maps, which are held once.
+    PictureBench(const PictureBench& of_maps, PictureOptions options);
     ~PictureBench();
     PictureBench(PictureBench&&) noexcept;
     PictureBench& operator=(PictureBench&&) noexcept;
@@ -130,6 +139,22 @@ public:
     /// A row a case, as PictureBench::score() gives it. Only rows of pixels that see a level whose
     /// shares have changed are shaded again.
     std::vector<PictureScore> score(const Shares& shares);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Scores a chain as PictureBench::score() does, but shades only rows of pixels that see a level which
+/// has changed since. `bench` must outlive this.
+class PictureBench::Retake {
+public:
+    explicit Retake(const PictureBench& bench);
+    ~Retake();
+    Retake(Retake&&) noexcept;
+
+    /// changed: a bit for each level, set where the chain is not what it was; the first time all are.
+    std::vector<PictureScore> score(const Prefiltered& chain, std::uint32_t changed);
 
 private:
     struct State;

@@ -9,6 +9,12 @@
 
 namespace petrichor::texproc {
 
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
 PictureOptions reference_pictures()
 {
     PictureOptions o;
@@ -131,7 +137,6 @@ PictureOptions drawn_pictures(std::uint32_t seed)
         const std::string number = std::to_string(view + 1);
         const double turned = between(0.0, 2.0 * std::numbers::pi), step = between(0.01, 0.03);
         const double pitch = between(11.0, 50.0), field_of_view = between(20.0, 40.0);
-        constexpr double kDegree = std::numbers::pi / 180.0;
         constexpr int kWidth = 200;
         // As far as its middle pixel is 4 to 16 mm wide: nearer there are no levels to see.
         const double pixel = 2.0 * std::tan(0.5 * field_of_view * kDegree) / kWidth;
@@ -158,6 +163,54 @@ PictureOptions drawn_pictures(std::uint32_t seed)
                                              static_cast<float>(std::sin(up))},
                                 .alpha = window ? static_cast<float>(between(0.08, 0.14)) : 0.0f,
                                 .sky = sky ? static_cast<float>(between(0.05, 0.2)) : 0.0f});
+        }
+    }
+    return o;
+}
+
+PictureOptions guard_pictures(SurfaceClass surface)
+{
+    std::mt19937 dice(4001);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(dice()) / 4294967296.0;
+    };
+    PictureOptions o;
+    o.frames = 2;
+    o.samples = 12;
+    o.seed = 4001;
+    constexpr int kViews = 16, kSuns = 7;
+    for (int view = 0; view < kViews; ++view) {
+        const double turned = between(0.0, 2.0 * std::numbers::pi), step = between(0.01, 0.03);
+        const double lifted = between(0.0, 1.0), pitch = 9.0 + 43.0 * lifted * lifted;  // low ones see most
+        const double half_width = std::tan(between(10.0, 20.0) * kDegree);
+        // A part of a large picture: a third of its width, its pixels as large.
+        constexpr int kWidth = 70, kLargeWidth = 200;
+        const double distance_m = 0.004 * std::exp2(between(0.0, 2.3)) * 0.5 * kLargeWidth / half_width;
+        o.views.push_back({.name = "guard " + std::to_string(view + 1),
+                           .height_m = distance_m * std::sin(pitch * kDegree),
+                           .pitch_deg = pitch,
+                           .field_of_view_deg = 2.0 * std::atan(half_width * kWidth / kLargeWidth) / kDegree,
+                           .width = kWidth,
+                           .rows = 32,
+                           .step_right_m = step * std::cos(turned),
+                           .step_ahead_m = step * std::sin(turned)});
+        const double first = between(0.0, 2.0 * std::numbers::pi);
+        for (const bool metal : {false, true}) {
+            for (int light = 0; light < kSuns + (metal ? 0 : 1); ++light) {
+                const bool window = light == kSuns;
+                const double around = first + (light + between(0.0, 1.0)) * 2.0 * std::numbers::pi / kSuns;
+                const double up = between(15.0, 65.0) * kDegree;
+                const bool sky = metal || (!window && between(0.0, 1.0) < 0.4);
+                const double sky_radiance = between(0.05, 0.2), alpha = between(0.08, 0.14);
+                if (metal ? surface == SurfaceClass::Paint : surface == SurfaceClass::Metal) continue;
+                o.cases.push_back({view, static_cast<int>(o.lights.size()), metal});
+                o.lights.push_back({.name = (window ? "window " : "sun ") + std::to_string(light + 1),
+                                    .to_light = {static_cast<float>(std::cos(around) * std::cos(up)),
+                                                 static_cast<float>(std::sin(around) * std::cos(up)),
+                                                 static_cast<float>(std::sin(up))},
+                                    .alpha = window ? static_cast<float>(alpha) : 0.0f,
+                                    .sky = sky ? static_cast<float>(sky_radiance) : 0.0f});
+            }
         }
     }
     return o;

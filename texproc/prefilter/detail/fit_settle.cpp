@@ -1,0 +1,281 @@
+#include "texproc/prefilter/detail/fit_settle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "texproc/prefilter/detail/chain_fit.h"
+#include "texproc/prefilter/detail/picture_cost.h"
+
+namespace petrichor::texproc::detail {
+
+namespace {
+
+// Of a level: how much of a fit is kept; of two lobes on anything but metal also: times which the base colour of paint is darker for its slopes
+// than a filter makes it, and how much darker whatever they are, since a wide second lobe is a haze on
+// what is diffuse; how much of the second lobe's share; how much of what was before the fit.
+constexpr float kShares[] = {1.0f, 0.75f, 0.5f, 0.25f, 0.0f}, kFewer[] = {1.0f, 0.5f, 0.0f};
+constexpr float kDark[] = {0.0f, 0.5f, 1.0f, 1.5f, 2.0f, 3.0f};
+constexpr float kDim[] = {0.0f, 0.01f, 0.02f, 0.04f};
+constexpr float kSecond[] = {1.0f, 0.75f, 0.5f};
+constexpr float kLeft[] = {1.0f, 0.5f, 0.0f};
+// Of all levels at once.
+constexpr float kAlike[] = {1.0f, 0.75f, 0.5f, 0.25f}, kLess[] = {0.75f, 0.5f}, kLeastMetal = 0.12f;
+constexpr int kMetalSweeps = 2;
+constexpr double kClear = 1e-3;  // a smaller gain changes nothing
+constexpr std::size_t kRoughness = 0, kMetal = 2, kSecondRoughness = 4, kSecondShare = 5;
+
+// Of a level.
+struct Kept {
+    std::size_t fit = 0;
+    float fitted = 0.0f, metal = 0.0f, dark = 1.0f, dim = 0.0f, second = 1.0f, left = 1.0f;
+    bool operator==(const Kept&) const = default;
+};
+
+std::array<std::vector<Image>*, 6> parts_of(Prefiltered& chain)
+{
+    return {&chain.roughness,     &chain.normal,           &chain.metal_share,
+            &chain.second.normal, &chain.second.roughness, &chain.second.share};
+}
+
+FitLevels fitted_levels(Prefiltered& chain)
+{
+    FitLevels all(chain.roughness.size());
+    for (std::size_t k = 1; k < all.size(); ++k) {
+        if (!is_fitted(chain.roughness[k].width, chain.roughness[k].height)) continue;
+        const auto parts = parts_of(chain);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            if (k < parts[i]->size()) all[k][i] = (*parts[i])[k];
+    }
+    return all;
+}
+
+// A level between two: 0 the first, 1 the second.
+void mix(const Image& from, const Image& to, float share, Image& mixed)
+{
+    for (std::size_t i = 0; i < mixed.pixels.size(); ++i)
+        mixed.pixels[i] = from.pixels[i] + share * (to.pixels[i] - from.pixels[i]);
+    if (mixed.channels < 3) return;
+    for (std::size_t i = 0; i < mixed.pixels.size(); i += 3) {  // normals, made unit length again
+        float* code = &mixed.pixels[i];
+        float squares = 0.0f;
+        for (int c = 0; c < 3; ++c) squares += (2.0f * code[c] - 1.0f) * (2.0f * code[c] - 1.0f);
+        const float scale = 1.0f / std::sqrt(std::max(squares, 1e-12f));
+        for (int c = 0; c < 3; ++c) code[c] = 0.5f + scale * (code[c] - 0.5f);
+    }
+}
+
+// Pictures of a bench, whose mean is to be small, and those of a guard, of which none is to be worse
+// than plain mips.
+class Judge {
+public:
+    Judge(const PictureBench& bench, const PictureBench* guard) : looks_()
+    {
+        looks_.emplace_back(bench);
+        if (guard) looks_.emplace_back(*guard);
+    }
+    double cost(const Prefiltered& chain, std::uint32_t changed)
+    {
+        for (Look& look : looks_)
+            if (changed || look.scores.empty()) look.scores = look.retake.score(chain, changed);
+        double cost = cost_of(looks_.front().scores, looks_.front().plain);
+        if (looks_.size() > 1)
+            cost += penalty_of(looks_.back().scores, looks_.back().plain) /
+                    static_cast<double>(looks_.back().scores.size());
+        return cost;
+    }
+
+private:
+    struct Look {
+        explicit Look(const PictureBench& bench)
+            : plain(bench.score({})), retake(bench)
+        {
+        }
+        std::vector<PictureScore> plain, scores{};
+        PictureBench::Retake retake;
+    };
+    std::vector<Look> looks_;
+};
+
+class Search {
+public:
+    Search(const PictureBench& bench, const PictureBench* guard, const Fits& fits, const PrefilterOptions& options,
+           Prefiltered& chain)
+        : fits_(fits),
+          metal_(options.surface == SurfaceClass::Metal),
+          guarded_(guard != nullptr),
+          shares_(metal_ || guarded_ ? std::span<const float>(kShares) : kFewer),
+          chain_(chain),
+          plain_(bench.plain_roughness()),
+          judge_(bench, guard),
+          now_(chain.roughness.size())
+    {
+        base_.resize(now_.size());
+        for (std::size_t k = 1; k < now_.size(); ++k)
+            if (is_fitted(k)) base_[k] = chain.base_share[k];
+        best_ = now_;
+    }
+
+    void run()
+    {
+        show(best_, best_cost_);
+        alike();
+        if (guarded_) together();
+        for (int sweep = 0; sweep < (metal_ ? kMetalSweeps : 1); ++sweep) {
+            const double before = best_cost_;
+            one_by_one();
+            if (best_cost_ > before - kClear) break;
+        }
+        double unused = 0.0;
+        show(best_, unused);
+    }
+
+private:
+    bool is_fitted(std::size_t k) const { return !fits_.before[k][kRoughness].empty(); }
+
+    void show(const std::vector<Kept>& levels, double& cost)
+    {
+        std::uint32_t changed = 0;
+        for (std::size_t k = 1; k < now_.size(); ++k)
+            if (is_fitted(k) && !(levels[k] == now_[k])) changed |= 1u << k, show(k, levels[k]);
+        now_ = levels;
+        cost = judge_.cost(chain_, changed);
+    }
+
+    void show(std::size_t k, const Kept& kept)
+    {
+        const FitParts &before = fits_.before[k], &after = fits_.after[kept.fit][k];
+        const auto parts = parts_of(chain_);
+        Image rough = before[kRoughness];
+        mix(plain_[k], before[kRoughness], kept.left, rough);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (k >= parts[i]->size()) continue;
+            const bool is_rough = i == kRoughness || i == kSecondRoughness;
+            mix(is_rough ? rough : before[i], after[i], i == kMetal ? kept.metal : kept.fitted,
+                (*parts[i])[k]);
+            if (i != kSecondShare) continue;
+            for (float& share : (*parts[i])[k].pixels) share *= kept.second;
+        }
+        for (std::size_t i = 0; i < base_[k].pixels.size(); ++i)
+            chain_.base_share[k].pixels[i] =
+                std::clamp(1.0f - kept.dim + kept.dark * (base_[k].pixels[i] - 1.0f), 0.0f, 1.0f);
+    }
+
+    void attempt(const std::vector<Kept>& levels)
+    {
+        double cost = 0.0;
+        show(levels, cost);
+        if (!(cost < best_cost_ - kClear)) return;
+        best_cost_ = cost;
+        best_ = levels;
+    }
+
+    void alike()
+    {
+        for (std::size_t fit = 0; fit < fits_.after.size(); ++fit) {
+            const auto share = [&](float fitted, float dim) {
+                Kept kept;
+                kept.fit = fit, kept.fitted = kept.metal = fitted, kept.dim = dim;
+                attempt(std::vector<Kept>(now_.size(), kept));
+            };
+            for (const float fitted : kAlike)
+                for (const float dim : kDim)
+                    if (guarded_ || dim == 0.0f) share(fitted, dim);
+            if (metal_) share(kLeastMetal, 0.0f);
+        }
+    }
+
+    // All levels, from where each of them is.
+    void together()
+    {
+        const auto change = [&](const auto& set) {
+            std::vector<Kept> levels = best_;
+            for (Kept& kept : levels) set(kept);
+            attempt(levels);
+        };
+        for (const float less : kLess) change([&](Kept& kept) { kept.fitted *= less; });
+        for (const float less : kLess) change([&](Kept& kept) { kept.second *= less; });
+        for (const float more : {1.5f, 2.0f}) change([&](Kept& kept) { kept.dark *= more; });
+        for (const float more : {0.01f, 0.02f}) change([&](Kept& kept) { kept.dim += more; });
+    }
+
+    // The coarsest first.
+    void one_by_one()
+    {
+        for (std::size_t k = now_.size(); k-- > 1;) {
+            if (!is_fitted(k)) continue;
+            const auto change = [&](const auto& set) {
+                std::vector<Kept> levels = best_;
+                set(levels[k]);
+                if (!(levels[k] == best_[k])) attempt(levels);
+            };
+            for (std::size_t fit = 0; fit < fits_.after.size(); ++fit)
+                for (const float share : shares_)
+                    change([&](Kept& kept) { kept.fit = fit, kept.fitted = share; });
+            if (!chain_.metal_share.empty())
+                for (const float share : shares_) change([&](Kept& kept) { kept.metal = share; });
+            if (!guarded_) continue;
+            for (const float second : kSecond) change([&](Kept& kept) { kept.second = second; });
+            for (const float dark : kDark) change([&](Kept& kept) { kept.dark = dark; });
+            for (const float dim : kDim) change([&](Kept& kept) { kept.dim = dim; });
+            for (const float left : kLeft) change([&](Kept& kept) { kept.left = left; });
+        }
+    }
+
+    const Fits& fits_;
+    const bool metal_, guarded_;
+    const std::span<const float> shares_;
+    Prefiltered& chain_;
+    const std::vector<Image> plain_;
+    std::vector<Image> base_;
+    Judge judge_;
+    std::vector<Kept> now_, best_;
+    double best_cost_ = 0.0;
+};
+
+}  // namespace
+
+void keep_of_fits(const PictureBench& bench, const Fits& fits, const PrefilterOptions& options,
+                  Prefiltered& chain)
+{
+    if (options.surface == SurfaceClass::Metal || options.lobes != 2) {
+        Search(bench, nullptr, fits, options, chain).run();
+        return;
+    }
+    PictureOptions pictures = guard_pictures(options.surface);
+    pictures.threads = options.threads;
+    const PictureBench guard(bench, pictures);
+    Search(bench, &guard, fits, options, chain).run();
+}
+
+void settle_fit(const PictureBench& bench, const PrefilterOptions& options, Prefiltered& chain)
+{
+    const std::size_t levels = chain.roughness.size();
+    if (options.joint && options.metal_colors && options.surface != SurfaceClass::Paint) {
+        chain.metal_share.resize(levels);
+        for (std::size_t k = 1; k < levels; ++k)
+            chain.metal_share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,
+                                         ColorSpace::Data, 1.0f);
+    }
+    if (options.lobes == 2) {
+        chain.second = {chain.normal, chain.roughness, std::vector<Image>(levels)};
+        chain.second.normal[0] = chain.second.roughness[0] = Image();
+        for (std::size_t k = 1; k < levels; ++k)
+            chain.second.share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,
+                                          ColorSpace::Data, 0.5f);
+    }
+    Fits fits{fitted_levels(chain), {}};
+    const auto keep = [&] { fits.after.push_back(fitted_levels(chain)); };
+    if (!fit_chain(bench.levels(), options, chain, keep)) return;
+    keep();
+    for (std::size_t k = 1; k < levels; ++k) {
+        const auto parts = parts_of(chain);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            if (!fits.before[k][i].empty()) (*parts[i])[k] = fits.before[k][i];
+    }
+    keep_of_fits(bench, fits, options, chain);
+}
+
+}  // namespace petrichor::texproc::detail
