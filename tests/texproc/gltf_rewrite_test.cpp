@@ -63,7 +63,7 @@ protected:
                     for (const int v : {128 + 9 * wave, 128 - 7 * wave, 230})
                         pixels.push_back(static_cast<std::uint8_t>(v));
                 } else {
-                    for (const int v : {200, dents ? 50 + 120 * ((x + y) % 2) : 40 + 4 * x, seed * 20})
+                    for (const int v : {200, dents ? 50 + 120 * ((x + y) % 2) : 40 + 4 * x, metal ? 255 : seed * 20})
                         pixels.push_back(static_cast<std::uint8_t>(v));
                 }
             }
@@ -135,6 +135,7 @@ protected:
 
     int side = 32;
     bool dents = false;  // and chequers of two glosses
+    bool metal = false;
     std::vector<std::byte> mesh = [] {
         std::vector<std::byte> bytes;
         for (int i = 0; i < 300; ++i) bytes.push_back(static_cast<std::byte>(i * 37));
@@ -313,6 +314,7 @@ TEST_F(GltfRewrite, BytesDoNotDependOnThreads)
 TEST_F(GltfRewrite, TwoLobesStandBesideTheOne)
 {
     dents = true;
+    metal = true;  // where they gain most
     side = 256;
     const auto in = scene(kOne);
     GltfBuildOptions options;

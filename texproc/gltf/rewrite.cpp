@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/interrupted.h"
 #include "base/words.h"
+#include "texproc/prefilter/detail/picture_cost.h"
 
 namespace petrichor::texproc {
 
@@ -273,7 +274,9 @@ void Rewriter::drop_lobes()
         }
         if (!one || !two || !one->error || !two->error) return false;
         const PictureScore &with = two->error->shipped, &without = one->error->shipped;
-        if (with.rmse < 0.99 * without.rmse && with.flicker <= without.flicker) return true;
+        // As the fit weighs them: a little more flicker is a fair price for much of the error.
+        if (detail::change_of(with.rmse, without.rmse) + detail::kFlickerWeight * detail::change_of(with.flicker, without.flicker) < -0.01)
+            return true;
         char text[160];
         std::snprintf(text, sizeof(text), "two lobes gain nothing (RMSE %.4f for %.4f, flicker %.4f for %.4f), it has one",
                       with.rmse, without.rmse, with.flicker, without.flicker);
