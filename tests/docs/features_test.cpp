@@ -1,6 +1,7 @@
 // docs/features.md tells the truth: every key, command and test that it names exists, and a row
 // that is said to work names at least one of each kind that it needs.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -134,8 +135,9 @@ std::string unknown_option(const std::string& span)
     if (!help.count(name)) {
         auto words = command;
         words.push_back("--help");
-        const auto run =
-            testing_program::run_petrichor({.arguments = words}, fs::temp_directory_path());
+        // What the program says goes through files of that folder: tests run beside each other.
+        const testing_program::Workplace place("features-help-" + std::to_string(getpid()));
+        const auto run = testing_program::run(words, place);
         help[name] = run.exit_code == 0 ? run.out + run.err : "";
     }
     if (help[name].empty()) return "no command " + name;
