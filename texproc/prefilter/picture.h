@@ -71,9 +71,10 @@ PictureOptions drawn_pictures(std::uint32_t seed);
 /// of one tap; quick: four suns on paint and a window, two views less, of any class.
 PictureOptions design_pictures(bool quick = false, SurfaceClass surface = SurfaceClass::Both);
 
-/// Small ones of eight views that are drawn, each under eight lights (of metal seven): suns from all sides at a
+/// Small ones of sixteen views that are drawn, each under eight lights (of metal seven): suns from all sides at a
 /// height that is drawn, on paint some of them and on metal all beside a sky, and a window. With them the rule
-/// picture makes sure that what it fitted is worse than plain mips in none. The seeds of drawn_pictures() draw others.
+/// picture pays for what it fitted where that is worse than plain mips: a price, no promise. The seeds of
+/// drawn_pictures() draw others.
 PictureOptions guard_pictures(SurfaceClass surface);
 
 /// One case of one material: display-referred, 0..1.
