@@ -54,11 +54,12 @@
 #include "formulas/weather/snow_glints.h"
 #include "formulas/weather/soaked_walls.h"
 #include "formulas/weather/surface_weather.h"
+#include "formulas/weather/wander.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 68;
+SHARED_CONST int kProbeKinds = 69;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -610,6 +611,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const CloudMet met = cloud_met(20.0f * vec2(a.x, a.y), 3.0f * vec2(a.z, a.w), 0.3f * b.x, 0.5f + 0.3f * b.y, 1 + int(5.999f * b.z));
         return vec4(met.above, met.above > 0.001f ? met.up : 0.0f, cloud_lumps(20.0f * vec2(c.x, c.y), 2.0f * c.z, 0.1f * c.w),
                     cloud_tall(b.w) + cloud_rise(c.w));
+    }
+    if (kind == 68) {
+        const vec2 aside = wander(vec2(4.0f * a.x - 2.0f, 4.0f * a.y - 2.0f));
+        const vec2 arch = arches(vec2(a.z, a.w));
+        return vec4(2.0f + aside.x, 2.0f + aside.y, 2.0f + arch.x, 2.0f + arch.y);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

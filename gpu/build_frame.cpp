@@ -215,10 +215,9 @@ VisibleWeather made_for(const VisibleWeather& weather, const Frame& frame)
     return made;
 }
 
-shared::FallConstants fall_constants(const DepthView& view, const glm::vec3& from, const Fall& fall)
+shared::FallConstants fall_constants(const DepthView& view, const glm::vec3& from, const Fall& fall, float lift_m)
 {
-    // A shelter does not shelter itself: a point is lifted by a texel and a bit along its normal, by most of one
-    // towards the sky.
+    // A shelter does not shelter itself: a point is lifted along its normal, and by most of a texel towards the sky.
     glm::mat4 map = view.map_from_world;
     map[3] += map * glm::vec4(from * (view.texel_m * 0.8f), 0.0f);
     const auto row = [&map](int i) { return glm::vec4(map[0][i], map[1][i], map[2][i], map[3][i]); };
@@ -227,7 +226,7 @@ shared::FallConstants fall_constants(const DepthView& view, const glm::vec3& fro
     c.column = row(0) * static_cast<float>(SKY_MAP_SIZE) - middle;
     c.row = row(1) * static_cast<float>(SKY_MAP_SIZE) - middle;
     c.depth = row(2);
-    c.lift_m = view.texel_m * 1.2f;
+    c.lift_m = lift_m;
     c.level = shared::facing_level(from);
     c.rain = fall.rain;
     c.snow = fall.snow;
@@ -258,14 +257,16 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     }
     std::vector<Fall> falls = falls_of(frame, weather);
     if (!falls.empty()) falls.resize(weather.falls, {falls.back().direction, 0.0f, 0.0f});
+    // By a texel and a bit of the coarsest.
+    float lift_m = 0.0f;
+    for (const Fall& fall : falls) lift_m = std::max(lift_m, maps.sky_views[static_cast<std::size_t>(fall.direction)].texel_m * 1.2f);
     int k = 0;
     for (const Fall& fall : falls) {
         const int i = fall.direction;
-        c.arrays.falls[k++] = fall_constants(maps.sky_views[static_cast<std::size_t>(i)], sky_direction(i), fall);
+        c.arrays.falls[k++] = fall_constants(maps.sky_views[static_cast<std::size_t>(i)], sky_direction(i), fall, lift_m);
     }
     c.ripple_bits = std::bit_width(static_cast<unsigned>(r.surface_maps->ripple->width)) - 1;
     c.flow_bits = std::bit_width(static_cast<unsigned>(r.surface_maps->flow->width)) - 1;
-    c.snow_bits = std::bit_width(static_cast<unsigned>(r.surface_maps->snow->width)) - 1;
     const TrackMap& tracks = r.surface_maps->track_area;
     if (tracks.width > 0) {
         c.tracks =

@@ -23,7 +23,7 @@ struct FallConstants {
     vec4 column;   // of its depth map, from the world: texels from the middle of the first one, lifted towards the sky ..
     vec4 row;
     vec4 depth;
-    float lift_m;  // .. and along the normal so far, off the surface itself
+    float lift_m;  // .. and along the normal so far, off the surface itself: the same for all
     vec3 level;    // what facing_on_level wants
     float rain;    // share of it
     float snow;
@@ -116,9 +116,8 @@ struct FrameConstants {
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
-    int ripple_bits;  // the maps of rings, waves and snow have 2^bits texels a side
+    int ripple_bits;  // the maps of rings and waves have 2^bits texels a side
     int flow_bits;
-    int snow_bits;
     vec4 tracks;      // world x and z of the map's corner, repeats of it per metre along both
     vec2 tracks_y_m;  // heights between which it counts
     PatchGrid patches;  // levels 0: none

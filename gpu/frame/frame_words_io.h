@@ -4,7 +4,7 @@
 
 #include "gpu/frame/frame_io.h"
 
-#define FRAME_WORD_COUNT 236  // behind them FrameArrays begins, with its falls
+#define FRAME_WORD_COUNT 235  // behind them FrameArrays begins, with its falls
 #define FRAME_FALL_WORDS 19
 #define FRAME_SPEC_LANES 255  // of a CPU's subgroup, FrameTargets::lanes; 0: constants are read as they are
 // X(type, member)
@@ -42,7 +42,7 @@
     X(float, wet_lens) X(float, emissive_scale) X(float, exposure) X(float, exposure_bias) X(float, samples) \
     X(float, sun_angular_cos) X(float, shelter_spread_m) X(float, horizon_fade) X(float, specular_aa)        \
     X(float, specular_aa_limit) X(vec3, grain_dither) X(float, occlusion_direct) X(float, bounce)            \
-    X(uint, flags) X(int, ripple_bits) X(int, flow_bits) X(int, snow_bits) X(vec4, tracks) X(vec2, tracks_y_m)                   \
+    X(uint, flags) X(int, ripple_bits) X(int, flow_bits) X(vec4, tracks) X(vec2, tracks_y_m)                   \
     X(float, patches.cell_m) X(uint, patches.levels) X(uint, patches.patches) X(uint, patches.table_mask)    \
     X(uint, patches.neighbors) X(float, snow_lift_m) X(float, place.grid.cell_m) X(uint, place.grid.levels)  \
     X(uint, place.grid.patches) X(uint, place.grid.table_mask) X(uint, place.grid.neighbors)                 \

@@ -149,7 +149,6 @@ void add_decals(FrameGraph& graph, FrameTargets& targets, DecalTargets& own, con
     Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, texels(*maps.flow_quads)},
-                      {SURFACE_WANDER, texels(*maps.snow_quads)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},

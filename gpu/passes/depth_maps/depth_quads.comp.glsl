@@ -10,10 +10,12 @@ layout(binding = DEPTH_QUADS_MAPS) uniform sampler2DArray maps;
 layout(binding = DEPTH_QUADS_QUADS, scalar) writeonly buffer Quads { uvec2 quads[]; };
 layout(push_constant, scalar) uniform Push { DepthQuadsParams params; };
 
+// The rim of a map is open: a place beside it is held to the rim, and nothing stands over that.
 float depth_at(int x, int y)
 {
     const int last = SKY_MAP_SIZE - 1;
-    return texelFetch(maps, ivec3(min(x, last), min(y, last), params.layer), 0).r;
+    if (min(x, y) <= 0 || max(x, y) >= last) return 0.0;
+    return texelFetch(maps, ivec3(x, y, params.layer), 0).r;
 }
 
 void main()

@@ -140,7 +140,6 @@ bool OwnMoves::move(const Device& device, PipelineCache& pipelines, DescriptorAr
                                        {SURFACE_PLACE_LEVELS, texels(*no_numbers_)},
                                        {SURFACE_TRACKS, sampled(*no_map_, nearest_)},
                                        {SURFACE_INSTANCE_LOOKS, texels(*no_numbers_)},
-                                       {SURFACE_WANDER, texels(*no_words_)},
                                        {OWN_MOVE_VERTICES, texels(*vertices_)},
                                        {OWN_MOVE_POINTS, texels(*points_)},
                                        {OWN_MOVE_MOVED, storage_buffer(*moved_)}},

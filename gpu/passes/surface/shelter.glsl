@@ -2,9 +2,10 @@
 #ifndef PETRICHOR_SURFACE_SHELTER_GLSL
 #define PETRICHOR_SURFACE_SHELTER_GLSL
 
+#include "formulas/noise/noise.h"
 #include "formulas/weather/depth_quads.h"
 #include "formulas/weather/falls_here.h"
-#include "formulas/noise/noise.h"
+#include "formulas/weather/wander.h"
 #include "gpu/passes/surface/textures.glsl"
 
 struct Exposure {
@@ -13,31 +14,24 @@ struct Exposure {
     float sky;  // as the snow, the less the more it looks away
 };
 
-// Splashes and eddies carry what falls a bit to the side: the edge of a shelter wanders and is soft.
 // Along the surface, so that it does not shelter itself.
 vec3 stray(SurfaceInput at)
 {
-    const float tiling = 0.7;
-    const int level = quad_level(frame.snow_bits, at.position_dx.xz * tiling, at.position_dy.xz * tiling);
-    const vec2 wander = quad_texel(snow_quads, frame.snow_bits, at.position.xz * tiling, level) - 0.5;
-    const vec2 way = (5.0 * wander + 0.7 * on_circle(dither(at.pixel, frame.sample_index + 3u))) * frame.shelter_spread_m;
+    const vec2 way = (0.8 * wander(at.position.xz) + 0.7 * on_circle(dither(at.pixel, frame.sample_index + 3u))) * frame.shelter_spread_m;
     const vec3 flat_way = vec3(way.x, 0.0, way.y);
     return flat_way - at.normal * dot(at.normal, flat_way);
 }
 
-// Adds what falls along one direction.
-void fall_on(inout Exposure open, SurfaceInput at, vec3 strayed, int k)
+// Adds what falls along one direction. lifted: off the surface.
+void fall_on(inout Exposure open, SurfaceInput at, vec4 lifted, int k)
 {
     const FallConstants fall = fall_of(k);
-    const vec4 lifted = vec4(strayed + at.normal * fall.lift_m, 1.0);
     const vec3 map = vec3(dot(fall.column, lifted), dot(fall.row, lifted), dot(fall.depth, lifted));
-    const float half_side = 0.5 * float(SKY_MAP_SIZE);
-    const vec3 aside = abs(map - vec3(half_side - 0.5, half_side - 0.5, 0.5));
+    // What lies beside the map is open, as its rim is (depth_quads.comp.glsl).
     const vec2 p = clamp(map.xy, vec2(0.0), vec2(float(SKY_MAP_SIZE - 1)));
     const ivec2 texel = ivec2(p);
     const int place = (fall.layer * SKY_MAP_SIZE + texel.y) * SKY_MAP_SIZE + texel.x;
-    const float passed = share_passed(texelFetch(shelter_quads, place).rg, map.z, p - vec2(texel));
-    const float seen = max(aside.x, aside.y) <= half_side && aside.z <= 0.5 ? passed : 1.0;
+    const float seen = share_passed(texelFetch(shelter_quads, place).rg, map.z, p - vec2(texel));
     const float facing = facing_on_level(at.normal, fall.level);
     open.rain += fall.rain * seen * facing;
     // The relief of land has places that face it.
@@ -57,13 +51,13 @@ Exposure exposure_to_sky(SurfaceInput at, bool asked)
     open.rain = 0.0;
     open.snow = 0.0;
     open.sky = 0.0;
-    const vec3 strayed = at.position + stray(at);
+    const vec4 lifted = vec4(at.position + stray(at) + at.normal * fall_of(0).lift_m, 1.0);
     if (PLACE != 0u) {
         // Most ask their patch: a loop ends where none of a group does not.
-        for (int k = 0; k < (asked ? FALLS : 0); ++k) fall_on(open, at, strayed, k);
+        for (int k = 0; k < (asked ? FALLS : 0); ++k) fall_on(open, at, lifted, k);
         return open;
     }
-#define FALL(k) if (FALLS > k) fall_on(open, at, strayed, k);
+#define FALL(k) if (FALLS > k) fall_on(open, at, lifted, k);
     FALL(0) FALL(1) FALL(2) FALL(3) FALL(4) FALL(5) FALL(6) FALL(7)
     FALL(8) FALL(9) FALL(10) FALL(11) FALL(12) FALL(13) FALL(14) FALL(15)
 #undef FALL

@@ -33,7 +33,6 @@ FallConstants fall_of(int k) { return frame.arrays.falls[k]; }
 #endif
 layout(set = 0, binding = SURFACE_RIPPLE) uniform sampler2D ripple_map;
 layout(set = 0, binding = SURFACE_FLOW) uniform usamplerBuffer flow_quads;
-layout(set = 0, binding = SURFACE_WANDER) uniform usamplerBuffer snow_quads;
 layout(set = 0, binding = SURFACE_SNOW) uniform sampler2D snow_map;
 layout(set = 0, binding = SURFACE_SHELTER) uniform usamplerBuffer shelter_quads;  // of the depth maps of the sky
 layout(set = 0, binding = SURFACE_PLACE_TABLE) uniform usamplerBuffer place_table;

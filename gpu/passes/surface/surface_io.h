@@ -33,8 +33,7 @@
 #define SURFACE_PLACE_LEVELS 8
 #define SURFACE_TRACKS 9
 #define SURFACE_INSTANCE_LOOKS 10
-#define SURFACE_WANDER 11
-#define SURFACE_BINDINGS 12  // how many there are
+#define SURFACE_BINDINGS 11  // how many there are
 
 // A layer of what lets light through: what it lies between, behind those of all surfaces.
 #define SURFACE_LAYER_SOLID_DEPTH SURFACE_BINDINGS

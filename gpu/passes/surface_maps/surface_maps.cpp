@@ -110,7 +110,6 @@ SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size,
       snow(map(arena, "snow", size_of(given.snow, kSnowSize),
                mips_of(size_of(given.snow, kSnowSize)))),
       flow_quads(quads_of(arena, "flow_quads", *flow)),
-      snow_quads(quads_of(arena, "snow_quads", *snow)),
       ripple_size(size_of(given.drops, size)),
       drops_given(given.drops.size != 0),
       snow_given(given.snow.size != 0),
@@ -167,7 +166,6 @@ void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps)
                               .groups = groups_over(kSnowSize, kSnowSize, SURFACE_MAPS_TILE)});
     }
     add_mips(graph, "snow_mask_mips", *maps.snow);
-    add_quads(graph, "snow_mask_mips", *maps.snow, *maps.snow_quads, maps.trilinear);
     if (!maps.water_given) return;
     add_mips(graph, "flow_mips", *maps.flow);
     add_quads(graph, "flow_mips", *maps.flow, *maps.flow_quads, maps.trilinear);

@@ -16,7 +16,6 @@ struct SurfaceMaps {
     std::unique_ptr<GpuImage> flow;           ///< normals of small waves at this moment
     std::unique_ptr<GpuImage> snow;           ///< normal xy, mask, smoothness
     std::unique_ptr<GpuBuffer> flow_quads;    ///< red and green of `flow` (map_quads.glsl)
-    std::unique_ptr<GpuBuffer> snow_quads;    ///< likewise
     std::unique_ptr<GpuImage> tracks;         ///< as TrackMap; one texel of nothing without any
     TrackMap track_area;                      ///< without its texels
     SamplerHandle clamped;
@@ -33,7 +32,7 @@ private:
 
 // Draws the drops and the snow mask where none are given, and the mips of those that are; once.
 //
-//   writes   ripple_source, snow, flow and the quads of the latter two
+//   writes   ripple_source, snow, flow and its quads
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps);
 
 // Rings of rain drops at `time_s`; speed 1 is as photographed.
