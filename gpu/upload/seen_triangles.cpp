@@ -109,9 +109,9 @@ Occluders SeenTriangles::occluders(const GpuScene& scene, const SampledView& vie
         const glm::vec3* own = positions + draw->vertex_offset + draw->first_vertex;
         const std::uint32_t* own_indices = indices + draw->first_index;
         const auto [large, fresh] = large_.try_emplace({draw->first_index, draw->vertex_offset});
-        if (fresh) large->second = large_triangles({own, draw->vertex_count}, {own_indices, draw->index_count}, draw->first_vertex);
+        if (fresh) large->second = large_faces({own, draw->vertex_count}, {own_indices, draw->index_count}, draw->first_vertex);
         const std::span<const std::uint8_t> covered = scene.covered(*draw);
-        made.add(draw->to_world, large->second, own, own_indices, draw->first_vertex, [&](std::uint32_t t) {
+        made.add(draw->to_world, large->second, own, draw->first_vertex, [&](std::uint32_t t) {
             return t < covered.size() && (covered[t] & view.hidden) != 0;
         });
     }

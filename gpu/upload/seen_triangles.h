@@ -110,7 +110,7 @@ private:
                    const Occluders* occluders);
     using Place = std::pair<std::uint32_t, std::int32_t>;  // the first index and vertex
     std::map<Place, Blocks> blocks_;
-    std::map<Place, std::vector<LargeTriangle>> large_;
+    std::map<Place, std::vector<LargeFace>> large_;
     std::vector<Corner> corners_;          // of the draw that is listed
     std::vector<std::uint8_t> projected_;  // which groups of them are known
 };

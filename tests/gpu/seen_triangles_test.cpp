@@ -183,7 +183,7 @@ TEST_F(SeenTrianglesTest, NoneThatASampleMeetsIsLeftOut)
 Scene balls_behind_a_wall(bool wall)
 {
     Primitive quad;
-    for (const glm::vec2 at : {glm::vec2(-4, -20), glm::vec2(0.4f, -20), glm::vec2(0.4f, 4), glm::vec2(-4, 4)}) {
+    for (const glm::vec2 at : {glm::vec2(-4, -4), glm::vec2(0.4f, -4), glm::vec2(0.4f, 4), glm::vec2(-4, 4)}) {
         quad.positions.emplace_back(at.x, at.y, -3.0f);
         quad.normals.emplace_back(0.0f, 0.0f, 1.0f);
         quad.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
