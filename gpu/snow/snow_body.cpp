@@ -38,6 +38,9 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
                            {vec3(1.0e30f), vec3(-1.0e30f)}};
         for (std::size_t v = 0; v < from.source.positions.size(); ++v) {
             overlay_.vertices.push_back(vertex_of(from.source, v));
+            const vec3 along(overlay_.vertices.back().tangent);
+            const float length = glm::length(along);
+            along_.push_back(length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f));
             part.box.low = glm::min(part.box.low, from.source.positions[v] - kTallest_m);
             part.box.high = glm::max(part.box.high, from.source.positions[v] + kTallest_m);
         }
@@ -152,12 +155,9 @@ bool SnowBody::lay(const Frame& frame)
         Vertex& v = overlay_.vertices[i];
         v.position = shape.positions[point];
         v.normal = shape.normals[point];
-        const vec3 along = vec3(v.tangent);
-        const float length = glm::length(along);
         const float lift = std::max(v.position.y - base_m_[point].y, 0.0f);
         lift_m_ = std::max(lift_m_, lift);
-        const vec3 unit = length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f);
-        v.tangent = glm::vec4(unit * (1.0f + lift), v.tangent.w);
+        v.tangent = glm::vec4(along_[i] * (1.0f + lift), v.tangent.w);
         v.weather[3] = std::min<std::uint8_t>(code(shared::snow_body_code(shape.deep_m[point])), 254);
     }
     fill_indices(shape);

@@ -48,6 +48,7 @@ private:
 
     std::shared_ptr<const scene::SnowCaps> caps_;
     Overlay overlay_;
+    std::vector<glm::vec3> along_;  // of each vertex: its tangent, unit, as it was before any snow
     std::optional<Key> laid_;
     bool lies_ = false;
     float lift_m_ = 0.0f;
