@@ -38,6 +38,9 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
                            {vec3(1.0e30f), vec3(-1.0e30f)}};
         for (std::size_t v = 0; v < from.source.positions.size(); ++v) {
             overlay_.vertices.push_back(vertex_of(from.source, v));
+            const vec3 along(overlay_.vertices.back().tangent);
+            const float length = glm::length(along);
+            along_.push_back(length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f));
             part.box.low = glm::min(part.box.low, from.source.positions[v] - kTallest_m);
             part.box.high = glm::max(part.box.high, from.source.positions[v] + kTallest_m);
         }
@@ -59,7 +62,12 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
         points.erase(std::unique(points.begin(), points.end()), points.end());
         piece_points_.push_back(std::move(points));
     }
-    for (const scene::SnowCaps::Point& point : caps_->points) lowest_m_ = std::min(lowest_m_, point.base_m.y);
+    for (const scene::SnowCaps::Point& point : caps_->points) {
+        base_m_.push_back(point.base_m);
+        besides_.push_back({point.beyond, point.below});
+        lowest_m_ = std::min(lowest_m_, point.base_m.y);
+    }
+    list_corners();
     corners_.reserve(caps_->indices.size());
     for (const std::uint32_t corner : caps_->indices) corners_.push_back(caps_->corner_points[corner]);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> ways;
@@ -70,6 +78,31 @@ SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::mov
     inner_.assign(caps_->points.size(), 1);
     for (const auto& [edge, way] : ways)
         if (way != 0) inner_[edge.first] = inner_[edge.second] = 0;
+}
+
+// What each level of each piece draws, once for all frames.
+void SnowBody::list_corners()
+{
+    const scene::SnowLevels& levels = caps_->levels;
+    level_points_.reserve(levels.indices.size());
+    for (const std::uint32_t corner : levels.indices) level_points_.push_back(caps_->corner_points[corner]);
+    std::vector<std::uint32_t> last(caps_->corner_points.size(), 0);  // list, from 1, that has a corner
+    std::uint32_t number = 0;
+    for (const scene::SnowLevels::Piece& piece : levels.pieces) {
+        auto& ranges = level_corners_.emplace_back();
+        for (std::size_t level = 0; level < ranges.size(); ++level) {
+            const scene::SnowLevels::Range& range = piece.levels[level];
+            ++number;
+            ranges[level].first = static_cast<std::uint32_t>(corner_lists_.size());
+            for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k) {
+                const std::uint32_t corner = levels.indices[k];
+                if (last[corner] == number) continue;
+                last[corner] = number;
+                corner_lists_.push_back(corner);
+            }
+            ranges[level].end = static_cast<std::uint32_t>(corner_lists_.size());
+        }
+    }
 }
 
 std::vector<float> SnowBody::depths(const Frame& frame)
@@ -122,12 +155,9 @@ bool SnowBody::lay(const Frame& frame)
         Vertex& v = overlay_.vertices[i];
         v.position = shape.positions[point];
         v.normal = shape.normals[point];
-        const vec3 along = vec3(v.tangent);
-        const float length = glm::length(along);
-        const float lift = std::max(v.position.y - caps_->points[point].base_m.y, 0.0f);
+        const float lift = std::max(v.position.y - base_m_[point].y, 0.0f);
         lift_m_ = std::max(lift_m_, lift);
-        const vec3 unit = length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f);
-        v.tangent = glm::vec4(unit * (1.0f + lift), v.tangent.w);
+        v.tangent = glm::vec4(along_[i] * (1.0f + lift), v.tangent.w);
         v.weather[3] = std::min<std::uint8_t>(code(shared::snow_body_code(shape.deep_m[point])), 254);
     }
     fill_indices(shape);
@@ -153,24 +183,24 @@ void SnowBody::choose_levels(const std::vector<float>& depth_m)
     levels_ = std::move(chosen);
     drawn_.points.assign(caps_->points.size(), 0);
     drawn_.triangles.clear();
-    drawn_indices_.clear();
     drawn_corners_.clear();
     std::vector<std::uint8_t> known(caps_->corner_points.size(), 0);
     for (std::size_t i = 0; i < levels_.size(); ++i) {
         const scene::SnowLevels::Range& range = levels.pieces[i].levels[levels_[i]];
-        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k) {
-            const std::uint32_t corner = levels.indices[k], point = caps_->corner_points[corner];
-            drawn_indices_.push_back(corner);
-            drawn_.triangles.push_back(point);
-            drawn_.points[point] = scene::DrawnSnow::kDrawn;
+        const auto first = level_points_.begin() + range.first_index;
+        drawn_.triangles.insert(drawn_.triangles.end(), first, first + range.index_count);
+        const CornerRange& own = level_corners_[i][levels_[i]];
+        for (std::uint32_t k = own.first; k < own.end; ++k) {
+            const std::uint32_t corner = corner_lists_[k];
             known[corner] = 1;
+            drawn_.points[caps_->corner_points[corner]] = scene::DrawnSnow::kDrawn;
         }
     }
     for (std::uint32_t corner = 0; corner < known.size(); ++corner)
         if (known[corner] != 0) drawn_corners_.push_back(corner);
-    for (const std::uint32_t corner : drawn_corners_) {
-        const scene::SnowCaps::Point& point = caps_->points[caps_->corner_points[corner]];
-        for (const std::uint32_t other : {point.beyond, point.below})
+    for (std::size_t i = 0; i < drawn_.points.size(); ++i) {
+        if (drawn_.points[i] != scene::DrawnSnow::kDrawn) continue;
+        for (const std::uint32_t other : besides_[i])
             if (other != scene::SnowCaps::kNone) drawn_.points[other] = std::max(drawn_.points[other], scene::DrawnSnow::kBeside);
     }
 }
@@ -183,7 +213,7 @@ void SnowBody::fill_indices(const scene::SnowShape& shape)
     std::vector<std::uint8_t> out(caps_->points.size());
     constexpr std::uint8_t kSunk = 0x80;
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const float lift = shape.positions[i].y - caps_->points[i].base_m.y;
+        const float lift = shape.positions[i].y - base_m_[i].y;
         out[i] = static_cast<std::uint8_t>((lift < -kSunk_m ? kSunk : 0) | (lift > kCovers_m ? 0 : Covered::kFromSun));
     }
     std::size_t k = 0;
@@ -191,11 +221,14 @@ void SnowBody::fill_indices(const scene::SnowShape& shape)
         const scene::SnowLevels::Piece& piece = caps_->levels.pieces[i];
         const std::uint32_t first = caps_->parts[piece.part].first_index;
         std::uint32_t& count = counts_[piece.part];
-        for (const std::size_t end = k + piece.levels[levels_[i]].index_count; k < end; k += 3) {
+        const scene::SnowLevels::Range& range = piece.levels[levels_[i]];
+        const std::uint32_t* corner = caps_->levels.indices.data() + range.first_index;
+        const std::size_t begin = k;
+        for (const std::size_t end = k + range.index_count; k < end; k += 3) {
             const std::uint32_t* point = drawn_.triangles.data() + k;
             const auto all = static_cast<std::uint8_t>(out[point[0]] & out[point[1]] & out[point[2]]);
             if ((all & kSunk) != 0) continue;
-            std::copy_n(drawn_indices_.data() + k, 3, overlay_.indices.data() + first + count);
+            std::copy_n(corner + (k - begin), 3, overlay_.indices.data() + first + count);
             hidden_[(first + count) / 3] = all;
             count += 3;
         }
@@ -208,7 +241,7 @@ std::vector<std::uint8_t> SnowBody::hidden_points(const scene::SnowShape& shape)
 {
     std::vector<std::uint8_t> deep = inner_;
     for (std::size_t i = 0; i < deep.size(); ++i) {
-        const vec3 lift = shape.positions[i] - caps_->points[i].base_m;
+        const vec3 lift = shape.positions[i] - base_m_[i];
         const bool upright = std::max(std::abs(lift.x), std::abs(lift.z)) < scene::kUpright_m;
         // What coarser levels leave out lies deep, and so does all around it.
         if (drawn_.points[i] == scene::DrawnSnow::kDrawn && (!(lift.y > scene::kHidesGround_m) || !upright)) deep[i] = 0;
@@ -226,7 +259,7 @@ void SnowBody::find_covered(const scene::SnowShape& shape)
     std::vector<std::uint8_t> from = hidden_points(shape);
     for (std::size_t i = 0; i < from.size(); ++i) {
         from[i] = from[i] != 0 ? Covered::kFromEye : std::uint8_t{0};
-        if (drawn_.points[i] != scene::DrawnSnow::kDrawn || shape.positions[i].y - caps_->points[i].base_m.y > kCovers_m) from[i] |= Covered::kFromSun;
+        if (drawn_.points[i] != scene::DrawnSnow::kDrawn || shape.positions[i].y - base_m_[i].y > kCovers_m) from[i] |= Covered::kFromSun;
     }
     for (std::size_t i = 0; i < covering_.size(); ++i) {
         const scene::SnowCaps::Part& part = caps_->parts[covering_[i]];
@@ -248,7 +281,7 @@ bool SnowBody::lies_below(const vec3& eye_m) const
     for (std::size_t i = 0; i < top_m_.size(); ++i) {
         if (drawn_.points[i] != scene::DrawnSnow::kDrawn) continue;
         const vec3 way = eye_m - top_m_[i];
-        if (way.x * way.x + way.z * way.z < kNear_m * kNear_m && way.y < kOverIt_m && eye_m.y > caps_->points[i].base_m.y - kTallest_m) return false;
+        if (way.x * way.x + way.z * way.z < kNear_m * kNear_m && way.y < kOverIt_m && eye_m.y > base_m_[i].y - kTallest_m) return false;
     }
     return true;
 }

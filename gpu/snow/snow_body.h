@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_SNOW_SNOW_BODY_H
 #define PETRICHOR_GPU_SNOW_SNOW_BODY_H
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,6 +48,7 @@ private:
 
     std::shared_ptr<const scene::SnowCaps> caps_;
     Overlay overlay_;
+    std::vector<glm::vec3> along_;  // of each vertex: its tangent, unit, as it was before any snow
     std::optional<Key> laid_;
     bool lies_ = false;
     float lift_m_ = 0.0f;
@@ -57,11 +59,19 @@ private:
     std::vector<std::uint8_t> hidden_points(const scene::SnowShape& shape) const;
     std::vector<std::uint32_t> corners_;  // points of the caps' triangles, all of them
     std::vector<std::vector<std::uint32_t>> piece_points_;  // of each piece of the levels
+    struct CornerRange {
+        std::uint32_t first = 0, end = 0;
+    };
+    std::vector<std::array<CornerRange, 1 + scene::SnowLevels::kCoarser>> level_corners_;  // of each piece
+    std::vector<std::uint32_t> corner_lists_;  // of those ranges: each corner once
+    std::vector<std::uint32_t> level_points_;  // points of the indices of the levels
+    void list_corners();
+    std::vector<glm::vec3> base_m_;            // of each point, beside each other, as loops read them ..
+    std::vector<std::array<std::uint32_t, 2>> besides_;  // .. and its `beyond` and `below`
     // By the levels of the pieces:
     std::vector<std::uint8_t> levels_;
     scene::DrawnSnow drawn_;                    // points, and those of the triangles
     std::vector<std::uint32_t> drawn_corners_;  // vertices that are drawn, each once
-    std::vector<std::uint32_t> drawn_indices_;  // of the triangles, piece by piece
     std::vector<std::uint32_t> counts_;         // of each part, in the frame
     std::vector<std::uint8_t> hidden_;          // of each triangle of those, from where
     void choose_levels(const std::vector<float>& depth_m);

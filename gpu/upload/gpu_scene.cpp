@@ -353,6 +353,7 @@ void GpuScene::lay(const Device& device, const LaidOverlay& overlay)
         const auto hidden = overlay.hidden.subspan(overlaid_ ? (draw.first_index - first_overlay_index_) / 3 : 0, draw.index_count / 3);
         covered_[i].assign(hidden.begin(), hidden.end());
     }
+    ++lays_;
     if (!overlaid_) return;
     upload_vertices(device, overlay.vertices, first_overlay_);
     upload_buffer(device, *indices_, std::as_bytes(overlay.indices), first_overlay_index_ * 4);

@@ -143,6 +143,7 @@ public:
     /// be drawing.
     void lay(const Device& device, const LaidOverlay& overlay);
     bool overlaid() const { return overlaid_; }
+    std::uint64_t lays() const { return lays_; }  ///< grows with each
     /// By the triangles of a draw, from where they need not be drawn (Covered); empty: from nowhere.
     std::span<const std::uint8_t> covered(const Draw& draw) const
     {
@@ -162,6 +163,8 @@ public:
     GpuBuffer& draw_rows() const { return *draw_rows_; }
     /// Brings them to where things are. The device must not be drawing.
     void update_draw_rows(const Device& device);
+    /// A pose moves its vertices, and not the whole of it alone.
+    bool bends(const Draw& draw) const { return !draw.overlay && static_cast<std::size_t>(draw.vertex_offset) >= first_bending_; }
     /// Grows whenever something may have moved.
     std::uint64_t poses() const { return poses_; }
 
@@ -242,6 +245,7 @@ private:
     std::size_t first_bending_ = 0;
     std::size_t first_overlay_ = 0;
     std::size_t first_overlay_index_ = 0;
+    std::uint64_t lays_ = 0;
     std::vector<std::uint32_t> overlay_parts_;  // numbers of the overlay's draws, in their order
     bool overlaid_ = false;
     std::vector<std::vector<std::uint8_t>> covered_;  // of each draw

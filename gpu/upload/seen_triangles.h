@@ -2,13 +2,17 @@
 #define PETRICHOR_GPU_UPLOAD_SEEN_TRIANGLES_H
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "gpu/upload/asked_part.h"
 #include "gpu/upload/gpu_scene.h"
 #include "gpu/upload/instance_places.h"
+#include "gpu/upload/occluders.h"
+#include "gpu/upload/triangle_blocks.h"
 
 namespace petrichor::gpu {
 
@@ -31,6 +35,13 @@ struct SeenRange {
     bool whole() const { return index_count == kWhole; }
 };
 
+/// A vertex on the screen.
+struct Corner {
+    float x = 0.0f, y = 0.0f;   ///< pixels
+    float nearer = 0.0f;        ///< 1 / w; 0: not before the eye
+    std::uint32_t outside = 0;  ///< of which lines of what is asked; the highest bit: farther than all that asks
+};
+
 /// What of a scene a view may see: a range for each draw of the scene's list.
 struct SeenDraws {
     std::vector<SeenRange> ranges;
@@ -39,8 +50,8 @@ struct SeenDraws {
 };
 
 /// A CPU driver shades and sorts every triangle on one thread, before it knows whether a pixel shows it. Here
-/// those are left out that lie outside of the view, turn their back and are not shown from there, or lie
-/// between the samples. What rounding may decide stays, so that no picture changes.
+/// those are left out that lie outside of the view, turn their back and are not shown from there, lie
+/// between the samples, or behind something large in a map that has no perspective. What rounding may decide stays, so that no picture changes.
 class SeenTriangles {
 public:
     explicit SeenTriangles(const Device& device) : device_(&device), places_(device) {}
@@ -63,19 +74,23 @@ public:
                                           bool back_faces, const Wanted& wanted)
     {
         if (!indices_) return nullptr;
-        std::vector<const Draw*> draws;
+        std::vector<const Draw*> all, draws;
         for (const Draw& draw : scene.draws()) {
-            if (draw.index_count >= kLeastIndices && wanted(draw)) draws.push_back(&draw);
+            if (draw.index_count == 0 || !wanted(draw)) continue;
+            all.push_back(&draw);
+            if (draw.index_count >= kLeastIndices) draws.push_back(&draw);
         }
         if (draws.empty()) return nullptr;
-        return list_of(scene, view, back_faces, draws);
+        return list_of(scene, view, back_faces, draws, all);
     }
 
 private:
     static constexpr std::uint32_t kLeastIndices = 3 * 256;
 
     std::shared_ptr<const SeenDraws> list_of(const GpuScene& scene, const SampledView& view,
-                                             bool back_faces, std::span<const Draw* const> draws);
+                                             bool back_faces, std::span<const Draw* const> draws,
+                                             std::span<const Draw* const> all);
+    Occluders occluders(const GpuScene& scene, const SampledView& view, std::span<const Draw* const> draws);
 
     const Device* device_;
     InstancePlaces places_;
@@ -85,12 +100,19 @@ private:
     std::size_t capacity_ = 0;  // triangles
     std::size_t used_ = 0;
     const GpuScene* scene_ = nullptr;  // that the buffers are made for
-    struct Corner {
-        float x, y;     // pixels
-        float nearer;   // 1 / w; 0: not before the eye
-        std::uint32_t outside;  // of which lines of what is asked; the highest bit: farther than all that asks
+    struct Blocks {
+        std::uint64_t version = 0;
+        std::uint32_t index_count = 0;
+        std::vector<TriangleBlock> made;
     };
-    std::vector<Corner> corners_;
+    const std::vector<TriangleBlock>& blocks(const GpuScene& scene, const Draw& draw, const glm::vec3* own, const std::uint32_t* indices);
+    void list_draw(const GpuScene& scene, const SampledView& view, bool back_faces, const Draw& draw,
+                   const Occluders* occluders);
+    using Place = std::pair<std::uint32_t, std::int32_t>;  // the first index and vertex
+    std::map<Place, Blocks> blocks_;
+    std::map<Place, std::vector<LargeFace>> large_;
+    std::vector<Corner> corners_;          // of the draw that is listed
+    std::vector<std::uint8_t> projected_;  // which groups of them are known
 };
 
 /// Draws what `seen` (null: all) has left of a draw, and binds the indices that it needs. The scene's are

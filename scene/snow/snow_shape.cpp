@@ -99,6 +99,19 @@ float width_m(const SnowCaps::Point& p, float deep_m)
     return std::max(std::min(deep_m, 0.95f * p.support_m), 1.0e-4f);
 }
 
+// How far a cap lies below its surface.
+float sunk_m(float thickness_m)
+{
+    return thickness_m < kNotSunk_m ? kSunk_m * std::exp(-thickness_m / 0.02f) : 0.0f;
+}
+
+// Too far from edges, slots and steps for them to shape a cap so deep.
+bool in_the_midst(const SnowCaps::Point& p, float held_m)
+{
+    return p.edge_m >= std::max(held_m, kNearEdge_m) && p.slot_m >= std::max(held_m, kAtRim_m) && p.low_m >= std::max(held_m, kAtRim_m) &&
+           p.beyond == SnowCaps::kNone && !(p.fade > 0.0f) && p.bridge_m == glm::vec2(0.0f);
+}
+
 // The lesser of two depths, rounded where they meet.
 float lesser(float a, float b)
 {
@@ -132,23 +145,33 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
 
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn)
 {
-    SnowShape shape;
     const std::size_t count = caps.points.size();
-    shape.positions.reserve(count);
-    shape.thickness_m.reserve(count);
-    shape.deep_m.reserve(count);
+    SnowShape shape{std::vector<vec3>(count), {}, std::vector<float>(count), std::vector<float>(count)};
     // As if nothing lay beyond the edges.
     // A bank needs no edges: it lies where deep snow closes the steps below it, and goes under the caps where it does not.
     const auto bank_m = [](const SnowCaps::Point& p, float fallen_m) {
         const float thin = 1.0f - shared::smooth_edge(kThinBank_m, kWholeBank_m, fallen_m);
         return kOverCaps_m - p.fade * kUnderCaps_m - bank_low_m(p, fallen_m) - thin * (fallen_m + kUnderCaps_m);
     };
+    const auto put = [&shape](std::size_t i, const vec3& at, float thickness, float deep) {
+        shape.positions[i] = at;
+        shape.thickness_m[i] = thickness;
+        shape.deep_m[i] = deep;
+        shape.thickest_m = std::max(shape.thickest_m, thickness);
+    };
     std::vector<float> fallen(count), closing(count), bare(count), top(count);
+    std::vector<std::uint32_t> edges;  // points that ask what lies beside them
     for (std::size_t i = 0; i < count; ++i) {
-        if (drawn.points[i] == 0) continue;
         const SnowCaps::Point& p = caps.points[i];
+        if (drawn.points[i] != DrawnSnow::kDrawn) shape.positions[i] = p.base_m;
+        if (drawn.points[i] == 0) continue;
         fallen[i] = fallen_m(p, depth_m[i]);
-        if (p.bank > 0.0f) continue;
+        if (p.bank > 0.0f) {
+            if (drawn.points[i] != DrawnSnow::kDrawn) continue;
+            const float over = fallen[i] + filled_m(p, fallen[i]) + bank_m(p, fallen[i]);
+            put(i, p.base_m + vec3(0.0f, over, 0.0f), std::max(std::min(over, fallen[i]), 0.0f), fallen[i]);
+            continue;
+        }
         // Below a bank the caps close where it does.
         const float alone = p.wide * step_closed(p.drop_m, fallen[i]);
         const float closed = closing[i] = p.fade > 0.0f ? glm::mix(alone, whole_bank(p, fallen[i]), p.fade) : alone;
@@ -157,25 +180,16 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const
         const float round = p.edge_m < held ? rounded(p.edge_m / width_m(p, held)) : 1.0f;
         bare[i] = p.base_m.y + held * (round + closed * (1.0f - round));
         top[i] = bare[i] + filled_m(p, fallen[i]);
+        if (drawn.points[i] != DrawnSnow::kDrawn) continue;
+        if (closed == 0.0f && in_the_midst(p, held)) {
+            put(i, p.base_m + vec3(0.0f, held - sunk_m(held) + (top[i] - bare[i]), 0.0f), held, held);
+        } else {
+            edges.push_back(static_cast<std::uint32_t>(i));
+        }
     }
     std::vector<std::uint8_t> sunk_rim(count, 0);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const std::uint32_t i : edges) {
         const SnowCaps::Point& p = caps.points[i];
-        if (drawn.points[i] != DrawnSnow::kDrawn) {
-            shape.positions.push_back(p.base_m);
-            shape.thickness_m.push_back(0.0f);
-            shape.deep_m.push_back(0.0f);
-            continue;
-        }
-        if (p.bank > 0.0f) {
-            const float over = fallen[i] + filled_m(p, fallen[i]) + bank_m(p, fallen[i]);
-            const float thickness = std::max(std::min(over, fallen[i]), 0.0f);
-            shape.positions.push_back(p.base_m + vec3(0.0f, over, 0.0f));
-            shape.thickness_m.push_back(thickness);
-            shape.deep_m.push_back(fallen[i]);
-            shape.thickest_m = std::max(shape.thickest_m, thickness);
-            continue;
-        }
         // How far what lies beyond the edge reaches over it.
         const float beyond = p.beyond != SnowCaps::kNone ? top[p.beyond] - p.base_m.y : -1.0e9f;
         const float over = std::clamp(beyond, 0.0f, fallen[i]);
@@ -195,12 +209,11 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const
         const float lost = shared::smooth_edge(0.0f, 0.5f, lower / std::max(held, 1.0e-6f));
         const float round_low = rounded(p.low_m / width);
         const float thickness = held * (round_low + lost * (1.0f - round_low)) * (round + kept * (1.0f - round)) * (round_slot + slot * (1.0f - round_slot));
-        const float sunk = thickness < kNotSunk_m ? kSunk_m * std::exp(-thickness / 0.02f) : 0.0f;
         vec3 at = p.base_m;
         // Near an edge snow that is smoothed down still lies on what is below it.
         const float smoothed = top[i] - bare[i];
         const float filled = p.edge_m < kNearEdge_m ? glm::mix(std::max(smoothed, -kSmoothedDown * thickness), smoothed, closed) : smoothed;
-        at.y += thickness - sunk + filled;
+        at.y += thickness - sunk_m(thickness) + filled;
         const float bridged = p.slot_m < 1.0e-3f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;
@@ -222,10 +235,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const
             at.x += p.out.x * out;
             at.z += p.out.y * out;
         }
-        shape.positions.push_back(at);
-        shape.thickness_m.push_back(thickness);
-        shape.deep_m.push_back(held);
-        shape.thickest_m = std::max(shape.thickest_m, thickness);
+        put(i, at, thickness, held);
     }
     shape.normals.assign(count, vec3(0.0f));
     // What sinks into the snow at its foot is not seen, and bends no light at the edge.

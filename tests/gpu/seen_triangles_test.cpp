@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "gpu/frame/depth_view.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/view.h"
 #include "tests/gpu/gpu_fixture.h"
@@ -175,6 +177,67 @@ TEST_F(SeenTrianglesTest, NoneThatASampleMeetsIsLeftOut)
     for (Instance& instance : there.instances)
         instance.to_world = glm::translate(glm::mat4(1.0f), {1.0e5f, 0, 1.0e5f}) * instance.to_world;
     check(there, look({1.0e5f, 1.5f, 1.0e5f + 5.0f}, {1.0e5f, 0, 1.0e5f}), false, "far from the origin");
+}
+
+// A wall of two triangles before z = -3, wide enough for some of the balls that stand behind it.
+Scene balls_behind_a_wall(bool wall)
+{
+    Primitive quad;
+    for (const glm::vec2 at : {glm::vec2(-4, -4), glm::vec2(0.4f, -4), glm::vec2(0.4f, 4), glm::vec2(-4, 4)}) {
+        quad.positions.emplace_back(at.x, at.y, -3.0f);
+        quad.normals.emplace_back(0.0f, 0.0f, 1.0f);
+        quad.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
+        quad.uv0.emplace_back(0.0f);
+    }
+    quad.indices = {0, 1, 2, 0, 2, 3};
+    Scene scene = scene_of({ball(60)}, {plain_material(glm::vec3(0.5f))});
+    scene.instances.clear();
+    for (const glm::vec3 at : {glm::vec3(-2, 0, -6), glm::vec3(0.4f, 0, -6), glm::vec3(2.5f, 0, -6), glm::vec3(-2, 0, 0)})
+        scene.instances.push_back({"ball", 0, glm::translate(glm::mat4(1.0f), at)});
+    if (!wall) return scene;
+    scene.meshes.push_back({});
+    scene.meshes.back().primitives.push_back(quad);
+    scene.instances.push_back({"wall", 1, glm::mat4(1.0f)});
+    return scene;
+}
+
+TEST_F(SeenTrianglesTest, MapsLeaveOutWhatStandsBehindAWall)
+{
+    const Device device(RendererOptions{.device = "", .validation = false});
+    if (device.info().kind != "cpu") GTEST_SKIP() << "a device that shades vertices itself needs no such list";
+    constexpr int kMap = 512;
+    const DepthView from = orthographic_view({0.0f, 0.0f, -1.0f}, {0.0f, 0.0f, 0.0f}, 5.0f,
+                                             {glm::vec3(-9.0f), glm::vec3(9.0f)}, kMap);
+    const auto listed = [&](bool wall, bool maps) {
+        const GpuScene scene(device, balls_behind_a_wall(wall), {});
+        SeenTriangles triangles(device);
+        triangles.reset(scene);
+        const auto seen = triangles.list(scene, {from.clip_from_world, kMap, kMap, {glm::vec2(0.0f)}, 0, {}}, maps,
+                                         [](const Draw&) { return true; });
+        std::map<std::uint32_t, std::set<std::uint32_t>> numbers;  // by instance
+        for (const Draw& draw : scene.draws()) {
+            const SeenRange range = seen->ranges[static_cast<std::size_t>(&draw - scene.draws().data())];
+            if (range.whole()) continue;
+            const auto* first = reinterpret_cast<const std::uint32_t*>(seen->numbers->mapped) + range.first_index / 3;
+            numbers[draw.instance_id].insert(first, first + range.index_count / 3);
+        }
+        return numbers;
+    };
+    auto alone = listed(false, true), walled = listed(true, true);
+    EXPECT_TRUE(walled[0].empty());
+    EXPECT_LT(walled[1].size(), alone[1].size());
+    EXPECT_FALSE(walled[1].empty());
+    EXPECT_EQ(walled[2], alone[2]);
+    EXPECT_EQ(walled[3], alone[3]) << "it stands before the wall";
+    // What is missing lies behind the wall with all of it.
+    const Scene scene = balls_behind_a_wall(false);
+    const Primitive& mesh = scene.meshes[0].primitives[0];
+    for (const std::uint32_t n : alone[1]) {
+        if (walled[1].count(n) != 0) continue;
+        for (std::uint32_t k = 0; k < 3; ++k) EXPECT_LT(mesh.positions[mesh.indices[3 * n + k]].x + 0.4f, 0.4f);
+    }
+    // An eye that sees one side of things may look through the back of the wall.
+    EXPECT_EQ(listed(true, false)[0], listed(false, false)[0]);
 }
 
 TEST_F(SeenTrianglesTest, BothPathsShowWhatIsListed)

@@ -203,6 +203,37 @@ TEST(SnowBodyCovers, WhatABankLiesOnToo)
     }
 }
 
+// Pictures that are rendered at a time share out the frames of a film as it happens: what was laid before leaves nothing.
+TEST(SnowBodyVertices, AreAsIfNothingHadLainBefore)
+{
+    Scene turned = scene_of({quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6})}, {plain_material(glm::vec3(0.2f))});
+    turned.instances[0].to_world = glm::rotate(glm::mat4(1.0f), 0.7f, glm::vec3(0, 1, 0));
+    const scene::Triangles triangles(turned, {});
+    const scene::Tracer tracer(triangles);
+    const auto caps = std::make_shared<const scene::SnowCaps>(scene::build_snow_caps(tracer, {}));
+    SnowBody run(caps), alone(caps);
+    Frame f;
+    f.weather.snow_amount = 0.98f;
+    for (int k = 1; k <= 20; ++k) {
+        f.weather.snow_depth_m = 0.017f * static_cast<float>(k);
+        run.lay(f);
+    }
+    f.weather.snow_depth_m = 0.2f;
+    ASSERT_TRUE(run.lay(f) && alone.lay(f));
+    ASSERT_FALSE(run.laid().vertices.empty());
+    std::size_t compared = 0;
+    for (std::size_t p = 0; p < caps->parts.size(); ++p) {
+        ASSERT_EQ(run.laid().counts[p], alone.laid().counts[p]);
+        for (std::uint32_t k = caps->parts[p].first_index; k < caps->parts[p].first_index + alone.laid().counts[p]; ++k, ++compared) {
+            const std::uint32_t corner = alone.laid().indices[k];
+            ASSERT_EQ(run.laid().indices[k], corner);
+            EXPECT_EQ(run.laid().vertices[corner].tangent, alone.laid().vertices[corner].tangent);
+            EXPECT_EQ(run.laid().vertices[corner].position, alone.laid().vertices[corner].position);
+        }
+    }
+    EXPECT_GT(compared, 100u);
+}
+
 // Snow that stands on the ground throws the shadow of its body: seen from above, with a low sun.
 TEST_F(SnowBodyTest, ItThrowsShadows)
 {

@@ -400,6 +400,53 @@ TEST(Patches, SightPartsACellAtAThinWall)
     EXPECT_LT(both_sides(split), both_sides(whole) / 3);
 }
 
+// A chimney that goes through the roof of a house: a slab on four walls, with a loft that nothing looks into.
+Scene chimney(float roof_m)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-12, 0, -12}, {0, 0, 24}, {24, 0, 0});
+    add_box(scene, {-3.0f, roof_m - 0.1f, -3.0f}, {3.0f, roof_m, 3.0f}, false);
+    const float top = roof_m - 0.05f;
+    add_box(scene, {-2.9f, 0.0f, -2.9f}, {-2.8f, top, 2.9f}, false);
+    add_box(scene, {2.8f, 0.0f, -2.9f}, {2.9f, top, 2.9f}, false);
+    add_box(scene, {-2.85f, 0.0f, -2.9f}, {2.85f, top, -2.8f}, false);
+    add_box(scene, {-2.85f, 0.0f, 2.8f}, {2.85f, top, 2.9f}, false);
+    add_box(scene, {-0.43f, 0.0f, -0.43f}, {0.43f, roof_m + 2.0f, 0.43f}, false);
+    return scene;
+}
+
+TEST(Patches, AWallIsWetDownToTheRoofThatItStandsIn)
+{
+    constexpr float kFace = 0.43f;
+    int asked = 0;
+    for (int k = 0; k < 12; ++k) {
+        const float roof_m = 1.7f + 0.0413f * static_cast<float>(k);
+        PatchOptions options = half_metre(32);
+        options.cell_m = 0.35f;
+        const Cut cut(chimney(roof_m), options);
+        for (const glm::vec3 out : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
+            const glm::vec3 rain = -out * 6.0f + glm::vec3(0.0f, -5.0f, 0.0f);
+            const glm::vec3 along(out.z, 0.0f, out.x);
+            for (const float aside : {-0.33f, -0.1f, 0.1f, 0.33f}) {
+                for (const float up : {0.025f, 0.05f, 0.08f, 0.14f}) {
+                    const auto patch = patch_at(cut.patches, out * kFace + along * aside + glm::vec3(0.0f, roof_m + up, 0.0f), out);
+                    const auto high = patch_at(cut.patches, out * kFace + along * aside + glm::vec3(0.0f, roof_m + 1.2f, 0.0f), out);
+                    ASSERT_TRUE(patch && high);
+                    const float there = rain_exposure(cut.patches, *high, rain);
+                    ASSERT_GT(there, 0.5f);
+                    EXPECT_GT(rain_exposure(cut.patches, *patch, rain), 0.75f * there) << "roof at " << roof_m << ", " << up << " over it, " << aside;
+                    ++asked;
+                }
+            }
+            // The loft stays dry.
+            const auto below = patch_at(cut.patches, out * kFace + glm::vec3(0.0f, roof_m - 0.6f, 0.0f), out);
+            ASSERT_TRUE(below);
+            EXPECT_EQ(rain_exposure(cut.patches, *below, rain), 0.0f);
+        }
+    }
+    EXPECT_EQ(asked, 12 * 4 * 16);
+}
+
 TEST(Patches, AnyTrianglesAreDefined)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();

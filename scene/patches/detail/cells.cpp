@@ -4,9 +4,11 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.h"
 #include "scene/patches/detail/sampling.h"
+#include "scene/patches/detail/sight_groups.h"
 
 namespace petrichor::scene {
 
@@ -128,12 +130,13 @@ private:
     struct Outlook {
         bool buried = false;
         bool outer = false;  ///< most of them are longer than a twig's distance
+        int sky = 0;         ///< rays that reach it
         float inverse_distances = 0.0f;
         int rays = 0;
     };
     Outlook look_out(const SamplePoint& point, std::uint64_t hash) const;
-    bool parted(const Cell& cell) const;
     bool holds_content(const Cell& cell) const;
+    std::vector<PatchSample> outsiders(const Cell& cell, const RawSample* const* raw, std::size_t count, std::uint64_t hash) const;
     void settle();
 
     float cell_edge_m(int level) const
@@ -325,7 +328,10 @@ Grower::Outlook Grower::look_out(const SamplePoint& point, std::uint64_t hash) c
         const glm::vec3 d = cosine_direction(point.normal, height, turn);
         const RayHit hit = tracer_.nearest({origin, d});
         ++outlook.rays;
-        if (!hit.hit()) continue;
+        if (!hit.hit()) {
+            outlook.sky += d.y > 0.0f ? 1 : 0;
+            continue;
+        }
         if (r < 3 && hit.distance_m < regular) ++near;
         if (hit.back && !triangles_.double_sided(hit.triangle)) ++backs;
         outlook.inverse_distances += 1.0f / std::max(hit.distance_m, regular);
@@ -346,44 +352,6 @@ bool Grower::holds_content(const Cell& cell) const
 constexpr int kMoreAsked = 32;
 constexpr int kLeastOuter = 3;
 
-// Two groups of samples, a fifth of them or more each, that do not see one another.
-bool Grower::parted(const Cell& cell) const
-{
-    const float lift = 0.12f * cell_edge_m(1);
-    std::array<glm::vec3, kPatchSamples> points;
-    std::array<int, kPatchSamples> group;
-    for (int i = 0; i < cell.points; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        const SamplePoint point = sample_point(triangles_, cell.samples[k]);
-        points[k] = point.position_m + point.normal * lift;
-        group[k] = i;
-    }
-    const auto root = [&](int i) {
-        while (group[static_cast<std::size_t>(i)] != i) i = group[static_cast<std::size_t>(i)];
-        return i;
-    };
-    // Neighbours in the list first: where nothing is in the way, that joins all.
-    int groups = cell.points;
-    for (int step = 1; step < cell.points && groups > 1; ++step) {
-        for (int i = 0; i + step < cell.points && groups > 1; ++i) {
-            const int a = root(i), b = root(i + step);
-            if (a == b) continue;
-            if (tracer_.blocked_between(points[static_cast<std::size_t>(i)],
-                                        points[static_cast<std::size_t>(i + step)]))
-                continue;
-            group[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-            --groups;
-        }
-    }
-    int large = 0;
-    for (int r = 0; r < cell.points; ++r) {
-        int members = 0;
-        for (int i = 0; i < cell.points; ++i) members += root(i) == r ? 1 : 0;
-        if (members * 5 >= cell.points) ++large;
-    }
-    return large >= 2;
-}
-
 // Leaves, heaps, grass: what is seen of them, and what they send, is their outside. Where fewer than
 // half of the samples look out, they alone stand for the cell.
 void keep_outer(Cell& cell, const std::array<bool, kPatchSamples>& outer)
@@ -400,11 +368,46 @@ void keep_outer(Cell& cell, const std::array<bool, kPatchSamples>& outer)
     cell.points = kept;
 }
 
+// Samples that are shut in leave the cell, with their share of its area.
+void keep_open(Cell& cell, std::uint32_t shut)
+{
+    const int before = cell.points;
+    cell.points = 0;
+    for (int k = 0; k < before; ++k) {
+        if ((shut >> k & 1u) == 0)
+            cell.samples[static_cast<std::size_t>(cell.points++)] = cell.samples[static_cast<std::size_t>(k)];
+    }
+    cell.area_m2 *= static_cast<float>(cell.points) / static_cast<float>(before);
+}
+
+// Samples that see none of the cell's but the sky; at most as many as a cell keeps, and of cells that are cut the first one alone.
+std::vector<PatchSample> Grower::outsiders(const Cell& cell, const RawSample* const* raw, std::size_t count, std::uint64_t hash) const
+{
+    const float regular = cell_edge_m(1);
+    const auto lifted = [&](const PatchSample& sample) {
+        const SamplePoint point = sample_point(triangles_, sample);
+        return point.position_m + point.normal * (kSightLift * regular);
+    };
+    std::array<glm::vec3, 3> inside;
+    for (int k = 0; k < 3; ++k) inside[static_cast<std::size_t>(k)] = lifted(cell.samples[static_cast<std::size_t>(k * (cell.points - 1) / 2)]);
+    std::vector<PatchSample> found;
+    const std::size_t most = level_ == 0 ? std::size_t{kPatchSamples} : 1;
+    for (std::size_t at = 0; at < count && found.size() < most; ++at) {
+        const PatchSample& sample = raw[at]->point;
+        const glm::vec3 from = lifted(sample);
+        if (std::any_of(inside.begin(), inside.end(), [&](const glm::vec3& to) { return !tracer_.blocked_between(from, to); })) continue;
+        const std::uint64_t own = mixed(hash, 1000 + at);
+        if (look_out(sample_point(triangles_, sample), own).buried) continue;
+        if (sky_rays(tracer_, {&sample, 1}, regular, own) >= kSeesTheSky) found.push_back(sample);
+    }
+    return found;
+}
+
 void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count) const
 {
     const std::uint64_t hash = cell_hash(options_.seed, cell.key);
     float inverse_distances = 0.0f;
-    int rays = 0;
+    int rays = 0, sky = 0;
     int tested = 0;
     std::array<bool, kPatchSamples> outer{};
     // A stride through all samples first, then the ones beside them.
@@ -422,6 +425,7 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
             if (outlook.buried) continue;
             inverse_distances += outlook.inverse_distances;
             rays += outlook.rays;
+            sky += outlook.sky;
             outer[static_cast<std::size_t>(cell.points)] = outlook.outer;
             cell.samples[static_cast<std::size_t>(cell.points++)] = sample;
         }
@@ -447,6 +451,24 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
     for (std::size_t i = 0; i < count; ++i) area += raw[i]->area_m2;
     cell.area_m2 = area * static_cast<float>(cell.points) / static_cast<float>(tested);
     keep_outer(cell, outer);
+    std::optional<SightGroups> groups;
+    std::uint32_t shut = 0;
+    if (level_ <= 1 && options_.split_by_sight) {
+        groups = sight_groups(tracer_, cell, cell_edge_m(1));
+        if (groups->parted()) shut = shut_in(tracer_, cell, *groups, cell_edge_m(1), hash);
+        // Of cells that nothing cuts further.
+        if (level_ == 0 && shut != 0) keep_open(cell, shut);
+        // Of others a corner alone may stand outside, so small that none of the samples lies there.
+        if (shut == 0 && sky == 0 && count > kPatchSamples) {
+            const std::vector<PatchSample> outside = outsiders(cell, raw, count, hash);
+            if (level_ == 1 && !outside.empty()) shut = 1;
+            if (level_ == 0 && !outside.empty()) {
+                cell.points = static_cast<int>(outside.size());
+                std::copy(outside.begin(), outside.end(), cell.samples.begin());
+                cell.area_m2 = area * static_cast<float>(cell.points) / static_cast<float>(count);
+            }
+        }
+    }
     for (int k = 0; k < cell.points; ++k) {
         const SamplePoint point =
             sample_point(triangles_, cell.samples[static_cast<std::size_t>(k)]);
@@ -467,7 +489,7 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
                            length < (1.0f - kBends) * static_cast<float>(cell.points);
         if (coarse || bends || cell_edge_m(level_) * mean > 0.25f)
             cell.state = CellState::Split;
-    } else if (level_ == 1 && options_.split_by_sight && parted(cell)) {
+    } else if (level_ == 1 && groups && (groups->large() || shut != 0)) {
         cell.state = CellState::Split;
     }
 }
