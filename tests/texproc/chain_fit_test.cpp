@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(Lobes, ChainFitLobes, testing::Bool(),
 TEST_P(ChainFitLobes, SlopesAreThoseOfTheError)
 {
     const bool two = GetParam();
-    double largest = 0.0, largest_of_metal = 0.0, largest_of_second = 0.0;
+    double largest = 0.0, largest_of_metal = 0.0, largest_of_second = 0.0, largest_of_paint = 0.0;
     for (std::size_t light = 0; light < kLights; ++light) {
         Scene s(two);
         s.expose();
@@ -247,8 +247,8 @@ TEST_P(ChainFitLobes, SlopesAreThoseOfTheError)
                 if (two) {
                     FitLobe& lobe = (of_fine ? s.fine_second : s.coarse_second)[i];
                     const FitLobe& by = (of_fine ? s.fine_second_slopes : s.coarse_second_slopes)[i];
-                    values.insert(values.end(), {&t.of_second, &lobe.n[0], &lobe.n[1], &lobe.n[2], &lobe.stored});
-                    found.insert(found.end(), {slope.of_second, by.n[0], by.n[1], by.n[2], by.stored});
+                    values.insert(values.end(), {&t.of_second, &t.share, &lobe.n[0], &lobe.n[1], &lobe.n[2], &lobe.stored});
+                    found.insert(found.end(), {slope.of_second, slope.share, by.n[0], by.n[1], by.n[2], by.stored});
                 }
                 for (std::size_t c = 0; c < values.size(); ++c) {
                     float& value = *values[c];
@@ -265,6 +265,7 @@ TEST_P(ChainFitLobes, SlopesAreThoseOfTheError)
                     largest = std::max(largest, std::abs(known));
                     if (c == 4) largest_of_metal = std::max(largest_of_metal, std::abs(known));
                     if (c == 5) largest_of_second = std::max(largest_of_second, std::abs(known));
+                    if (c == 6) largest_of_paint = std::max(largest_of_paint, std::abs(known));
                 }
             }
         }
@@ -273,6 +274,7 @@ TEST_P(ChainFitLobes, SlopesAreThoseOfTheError)
     EXPECT_GT(largest_of_metal, 0.001);
     if (two) {
         EXPECT_GT(largest_of_second, 0.001);
+        EXPECT_GT(largest_of_paint, 0.001);
     }
 }
 

@@ -45,6 +45,7 @@ detail::FitLevels parts(const Prefiltered& chain)
         if (!detail::is_fitted(chain.roughness[k].width, chain.roughness[k].height)) continue;
         all[k][0] = chain.roughness[k];
         all[k][1] = chain.normal[k];
+        all[k][6] = chain.base_share[k];
         if (k >= chain.second.share.size()) continue;
         all[k][3] = chain.second.normal[k];
         all[k][4] = chain.second.roughness[k];
@@ -130,18 +131,34 @@ TEST(FitSettle, PicturesOfTheGuardDoNotPayForOthers)
     EXPECT_LT(mean(lacquer.bench, lacquer.kept), 0.8 * mean(lacquer.bench, lacquer.fitted));
 }
 
-// A wide second lobe shines where what is diffuse already does.
-TEST(FitSettle, TheHazeOfASecondLobeIsTakenFromTheBaseColour)
+// A wide second lobe shines where what is diffuse already does, so the base colour is fitted with it.
+TEST(FitSettle, TheBaseColourThatIsFittedWithTwoLobesIsKept)
 {
-    const TwoLobes cloth("cloth");
-    Prefiltered light = cloth.kept;
-    light.base_share = cloth.fitted.base_share;
-    double darker = 0.0, count = 0.0;
-    for (std::size_t k = 1; k < light.base_share.size(); ++k)
-        for (std::size_t i = 0; i < light.base_share[k].pixels.size(); ++i, ++count)
-            darker += static_cast<double>(light.base_share[k].pixels[i] - cloth.kept.base_share[k].pixels[i]);
-    EXPECT_GT(darker / count, 0.003);
-    EXPECT_LT(mean(cloth.bench, cloth.kept), mean(cloth.bench, light) - 0.001);
+    const TwoLobes facets("facets");
+    Prefiltered before = facets.kept;
+    before.base_share = start(facets.maps, true).base_share;
+    double apart = 0.0, count = 0.0;
+    for (std::size_t k = 1; k < before.base_share.size(); ++k)
+        for (std::size_t i = 0; i < before.base_share[k].pixels.size(); ++i, ++count)
+            apart += std::abs(
+                static_cast<double>(before.base_share[k].pixels[i] - facets.kept.base_share[k].pixels[i]));
+    EXPECT_GT(apart / count, 0.003);
+    EXPECT_LT(mean(facets.bench, facets.kept), mean(facets.bench, before) - 0.005);
+}
+
+// The base colour of a scene is made without the roughness, and its lobes are fitted with it as it is.
+TEST(FitSettle, ABaseColourThatIsNotWrittenStaysAsItIs)
+{
+    const ScoredMaps maps = fresh_maps(48, 21).front();
+    PrefilterOptions options{.rule = "picture", .surface = SurfaceClass::Paint, .lobes = 2};
+    options.base_colors = false;
+    const Prefiltered two = prefilter_raw(maps.normal, maps.roughness, options);
+    options.lobes = 1;
+    const Prefiltered one = prefilter_raw(maps.normal, maps.roughness, options);
+    ASSERT_FALSE(two.second.share.empty());
+    for (std::size_t k = 1; k < one.base_share.size(); ++k)
+        EXPECT_EQ(two.base_share[k].pixels, one.base_share[k].pixels) << k;
+    EXPECT_NE(two.roughness[1].pixels, one.roughness[1].pixels) << "or this shows nothing";
 }
 
 TEST(GuardPictures, LookAtEverySideAndAreNoneOfTheScored)

@@ -229,7 +229,7 @@ PrefilterOptions pair_options(const ImageMakingOptions& options, const ImageReci
     to.rebuild_z = true;
     to.lobes = recipe.lobes;
     to.surface = is;
-    to.metal_colors = false;  // the base colour of a scene is made without the roughness
+    to.base_colors = false;  // the base colour of a scene is made without the roughness
     if (recipe.normal_scale != 1.0f) to.bits = 0;  // the codes would be those of other normals
     return to;
 }

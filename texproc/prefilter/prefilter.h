@@ -30,7 +30,9 @@ struct PrefilterOptions {
     bool anisotropic = false;   ///< overlap: elliptic lobes where they help
     bool quick = false;         ///< overlap, picture: less search
     SurfaceClass surface = SurfaceClass::Both;  ///< picture in full: what it is fitted to
-    bool metal_colors = true;  ///< picture in full: metal gets a share of its base colour (Prefiltered::metal_share)
+    /// Picture in full: the base colour of levels is written as it is fitted: metal gets a share of it
+    /// (Prefiltered::metal_share), and with two lobes that of paint is fitted with them.
+    bool base_colors = true;
     /// Picture in full: 2 gives a texel of the levels from 1 on a second lobe of its own (SecondLobe).
     int lobes = 1;
     int bits = 0;               ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats

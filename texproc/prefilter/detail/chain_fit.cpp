@@ -41,8 +41,8 @@ struct Stage {
     float first_rate, last_rate, worse;
 };
 constexpr Stage kBold{2, 0.003f, 0.00003f, 0.0f}, kCareful{2, 0.0015f, 0.00003f, 10.0f};
-// Two lobes have farther to go.
-constexpr Stage kBoldTwo{3, 0.006f, 0.00003f, 0.0f};
+// Two lobes have farther to go, and those of metal a second fit to go on with.
+constexpr Stage kBoldTwo{5, 0.006f, 0.00003f, 0.0f}, kBoldTwoMetal{3, 0.006f, 0.00003f, 0.0f};
 constexpr float kClearlyWorse = 0.02f;
 constexpr float kFlicker =
     0.5f;  // what changes between two moments counts so much beside all of the error
@@ -213,7 +213,7 @@ private:
     std::size_t first_ = 1, last_ = 0;  // levels that are fitted
     std::vector<Pool> pools_;
     bool seen_ = false;  // plain mips are off somewhere
-    const bool colors_metal_;
+    const bool colors_metal_, colors_paint_;
     // Of Adam: means of slopes and of their squares, and steps, of a level.
     std::vector<std::vector<FitSlope>> mean_;
     std::vector<std::vector<FitSlope>> square_;
@@ -233,6 +233,7 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
       plain_texels_(plain.size()),
       second_(plain.size()),
       colors_metal_(!chain.metal_share.empty()),
+      colors_paint_(options.lobes == 2 && options.base_colors),
       mean_(plain.size()),
       square_(plain.size()),
       second_mean_(plain.size()),
@@ -471,11 +472,11 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
         (texels_[k].size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
             const std::size_t end = std::min((block + 1) * kBlock, texels_[k].size());
             for (std::size_t i = block * kBlock; i < end; ++i) {
-                float slope[6] = {};
+                float slope[7] = {};
                 for (std::vector<FitSlope>& slot : slopes_) {
                     FitSlope& s = slot[slot_offset + i];
                     for (int c = 0; c < 3; ++c) slope[c] += s.n[c];
-                    slope[3] += s.stored, slope[4] += s.metal, slope[5] += s.of_second;
+                    slope[3] += s.stored, slope[4] += s.metal, slope[5] += s.of_second, slope[6] += s.share;
                     s = {};
                 }
                 FitSlope &mean = mean_[k][i], &square = square_[k][i];
@@ -502,6 +503,8 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
                 if (!two()) continue;
                 t.of_second = std::clamp(moved(t.of_second, slope[5], mean.of_second, square.of_second),
                                          kLeastLobe, 1.0f - kLeastLobe);
+                if (colors_paint_)
+                    t.share = std::clamp(moved(t.share, slope[6], mean.share, square.share), 0.0f, 1.0f);
                 move_second(k, i, slot_offset, moved);
             }
         });
@@ -604,6 +607,7 @@ void ChainFit::store(Prefiltered& chain) const
             store_normal(second_[k][i].n, &chain.second.normal[k].pixels[3 * i]);
             chain.second.roughness[k].pixels[i] = second_[k][i].stored;
             chain.second.share[k].pixels[i] = t.of_second;
+            if (colors_paint_) chain.base_share[k].pixels[i] = t.share;
         }
     }
 }
@@ -621,9 +625,10 @@ bool fit_chain(const Levels& plain, const PrefilterOptions& options, Prefiltered
 {
     ChainFit fit(plain, options, chain);
     if (!fit.worth()) return false;
-    fit.fit(options.lobes == 2 ? kBoldTwo : kBold);
+    const bool metal = options.surface == SurfaceClass::Metal;
+    fit.fit(options.lobes != 2 ? kBold : metal ? kBoldTwoMetal : kBoldTwo);
     fit.store(chain);
-    if (options.surface != SurfaceClass::Metal) return true;
+    if (!metal) return true;
     if (bold) bold();
     fit.fit(kCareful);
     fit.store(chain);

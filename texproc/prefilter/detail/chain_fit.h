@@ -17,10 +17,11 @@ namespace petrichor::texproc::detail {
 /// flickers.
 ///
 /// Levels of more than 256 x 256 texels stay, as those below 8 texels do; so does the share of the
-/// base colour, with which the pictures are taken.
+/// base colour of paint, with which the pictures are taken, where there is one lobe, or it is not written
+/// (PrefilterOptions::base_colors). Else it is fitted too: a wide second lobe is a haze on what is diffuse.
 ///
 ///   plain  plain_levels() of the maps
-///   chain  its normals and roughness are changed
+///   chain  its normals and roughness are changed, and what else is said above
 ///   bold   of metal, called when the chain holds what is best in the mean, where some pictures may
 ///          be worse than those of plain mips; then the chain gets what is fitted on from there with
 ///          those counted more. Anything else is fitted once, and this is not called.

@@ -30,12 +30,13 @@ struct FitMeaning {
 };
 
 /// A level while it is fitted: normal, roughness as stored, shares of the base colour of paint and of
-/// metal, share of the second lobe; and how the error changes with all but that of paint.
+/// metal, share of the second lobe; and how the error changes with them, with the share of paint where
+/// there are two lobes.
 struct FitTexel {
     float n[3], stored, share, metal, of_second, none;
 };
 struct FitSlope {
-    float n[3], stored, metal, of_second, none[2];
+    float n[3], stored, metal, of_second, share, none;
 };
 /// A second lobe, and how the error changes with it.
 struct FitLobe {

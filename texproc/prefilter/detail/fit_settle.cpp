@@ -25,6 +25,9 @@ constexpr float kLeft[] = {1.0f, 0.5f, 0.0f};
 constexpr float kAlike[] = {1.0f, 0.75f, 0.5f, 0.25f}, kLess[] = {0.75f, 0.5f}, kLeastMetal = 0.12f;
 constexpr int kMetalSweeps = 2;
 constexpr double kClear = 1e-3;  // a smaller gain changes nothing
+// What the pictures of a guard count beside the others: a price of so much that it holds back what is
+// clearly worse, and not what is gained for it.
+constexpr double kGuard = 0.3;
 constexpr std::size_t kRoughness = 0, kMetal = 2, kSecondRoughness = 4, kSecondShare = 5;
 
 // Of a level.
@@ -34,10 +37,10 @@ struct Kept {
     bool operator==(const Kept&) const = default;
 };
 
-std::array<std::vector<Image>*, 6> parts_of(Prefiltered& chain)
+std::array<std::vector<Image>*, 7> parts_of(Prefiltered& chain)
 {
     return {&chain.roughness,     &chain.normal,           &chain.metal_share,
-            &chain.second.normal, &chain.second.roughness, &chain.second.share};
+            &chain.second.normal, &chain.second.roughness, &chain.second.share, &chain.base_share};
 }
 
 FitLevels fitted_levels(Prefiltered& chain)
@@ -82,7 +85,7 @@ public:
             if (changed || look.scores.empty()) look.scores = look.retake.score(chain, changed);
         double cost = cost_of(looks_.front().scores, looks_.front().plain);
         if (looks_.size() > 1)
-            cost += penalty_of(looks_.back().scores, looks_.back().plain) /
+            cost += kGuard * penalty_of(looks_.back().scores, looks_.back().plain) /
                     static_cast<double>(looks_.back().scores.size());
         return cost;
     }
@@ -106,15 +109,13 @@ public:
         : fits_(fits),
           metal_(options.surface == SurfaceClass::Metal),
           guarded_(guard != nullptr),
+          colors_(guarded_ && options.base_colors),
           shares_(metal_ || guarded_ ? std::span<const float>(kShares) : kFewer),
           chain_(chain),
           plain_(bench.plain_roughness()),
           judge_(bench, guard),
           now_(chain.roughness.size())
     {
-        base_.resize(now_.size());
-        for (std::size_t k = 1; k < now_.size(); ++k)
-            if (is_fitted(k)) base_[k] = chain.base_share[k];
         best_ = now_;
     }
 
@@ -158,9 +159,8 @@ private:
             if (i != kSecondShare) continue;
             for (float& share : (*parts[i])[k].pixels) share *= kept.second;
         }
-        for (std::size_t i = 0; i < base_[k].pixels.size(); ++i)
-            chain_.base_share[k].pixels[i] =
-                std::clamp(1.0f - kept.dim + kept.dark * (base_[k].pixels[i] - 1.0f), 0.0f, 1.0f);
+        for (float& share : chain_.base_share[k].pixels)
+            share = std::clamp(1.0f - kept.dim + kept.dark * (share - 1.0f), 0.0f, 1.0f);
     }
 
     void attempt(const std::vector<Kept>& levels)
@@ -182,7 +182,7 @@ private:
             };
             for (const float fitted : kAlike)
                 for (const float dim : kDim)
-                    if (guarded_ || dim == 0.0f) share(fitted, dim);
+                    if (colors_ || dim == 0.0f) share(fitted, dim);
             if (metal_) share(kLeastMetal, 0.0f);
         }
     }
@@ -197,6 +197,7 @@ private:
         };
         for (const float less : kLess) change([&](Kept& kept) { kept.fitted *= less; });
         for (const float less : kLess) change([&](Kept& kept) { kept.second *= less; });
+        if (!colors_) return;
         for (const float more : {1.5f, 2.0f}) change([&](Kept& kept) { kept.dark *= more; });
         for (const float more : {0.01f, 0.02f}) change([&](Kept& kept) { kept.dim += more; });
     }
@@ -218,18 +219,18 @@ private:
                 for (const float share : shares_) change([&](Kept& kept) { kept.metal = share; });
             if (!guarded_) continue;
             for (const float second : kSecond) change([&](Kept& kept) { kept.second = second; });
+            for (const float left : kLeft) change([&](Kept& kept) { kept.left = left; });
+            if (!colors_) continue;
             for (const float dark : kDark) change([&](Kept& kept) { kept.dark = dark; });
             for (const float dim : kDim) change([&](Kept& kept) { kept.dim = dim; });
-            for (const float left : kLeft) change([&](Kept& kept) { kept.left = left; });
         }
     }
 
     const Fits& fits_;
-    const bool metal_, guarded_;
+    const bool metal_, guarded_, colors_;
     const std::span<const float> shares_;
     Prefiltered& chain_;
     const std::vector<Image> plain_;
-    std::vector<Image> base_;
     Judge judge_;
     std::vector<Kept> now_, best_;
     double best_cost_ = 0.0;
@@ -253,7 +254,7 @@ void keep_of_fits(const PictureBench& bench, const Fits& fits, const PrefilterOp
 void settle_fit(const PictureBench& bench, const PrefilterOptions& options, Prefiltered& chain)
 {
     const std::size_t levels = chain.roughness.size();
-    if (options.joint && options.metal_colors && options.surface != SurfaceClass::Paint) {
+    if (options.joint && options.base_colors && options.surface != SurfaceClass::Paint) {
         chain.metal_share.resize(levels);
         for (std::size_t k = 1; k < levels; ++k)
             chain.metal_share[k] = Image(chain.roughness[k].width, chain.roughness[k].height, 1,

@@ -10,9 +10,10 @@
 
 namespace petrichor::texproc::detail {
 
-/// What a fit changes of a level: roughness, normal, share of metal's base colour, and of the second
-/// lobe normal, roughness and share. Empty: the chain has none, or the level is not fitted.
-using FitParts = std::array<Image, 6>;
+/// What a fit changes of a level: roughness, normal, share of metal's base colour, of the second lobe
+/// normal, roughness and share, and the share of paint's base colour. Empty: the chain has none, or the level
+/// is not fitted.
+using FitParts = std::array<Image, 7>;
 using FitLevels = std::vector<FitParts>;
 
 /// A chain before it is fitted, and fits of it to choose from.
