@@ -52,6 +52,7 @@ struct SnowCaps {
         std::uint32_t below = kNone;  ///< .. and the point down there
         float bank = 0.0f;            ///< 1: of a bank, which lies over the steps of the caps; 0: of a cap
         float bank_m = 0.0f;          ///< the highest step below the bank here; 0: there is no bank
+        float corner = 0.0f;          ///< of a bank: 1 over the edge of a step .. 0 a hand's width away
         float fade = 0.0f;            ///< of a bank: 1 where it goes under the caps; of a cap: 1 where a bank lies over it
         std::array<float, kFills> bank_fill_m{};  ///< of a cap: up to the ground as the bank smooths it
     };

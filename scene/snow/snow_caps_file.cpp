@@ -9,8 +9,8 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x67706163;  // "capg"
-static_assert(sizeof(SnowCaps::Point) == 31 * sizeof(float), "no padding: bytes are compared");
+constexpr std::uint32_t kMagic = 0x68706163;  // "caph"
+static_assert(sizeof(SnowCaps::Point) == 32 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
     std::vector<std::byte> bytes;

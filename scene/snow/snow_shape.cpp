@@ -48,12 +48,20 @@ constexpr float kOverCorner = 0.65f;   // of the depth: caps go no lower for a b
 constexpr float kBelowBank_m = 0.008f;  // caps below a whole bank
 constexpr float kOverCaps_m = 0.002f;  // a bank lies so far over the caps ..
 constexpr float kUnderCaps_m = 0.02f;  // .. and goes so far under them where it ends
+constexpr float kOnCorner_m = 0.018f;  // so much lies at least on an edge that a bank closes
 
 // Of a bank: how much lower it lies than a sheet that closes the step.
 float bank_low_m(const SnowCaps::Point& p, float depth_m)
 {
     const float low = std::max(0.5f * p.bank_m - kShed * depth_m, 0.0f);
     return low * shared::smooth_edge(0.0f, kSlit_m, low);
+}
+
+// How much higher it is heaped up where stones that are half as high as it is deep would stand out of it.
+float corner_m(const SnowCaps::Point& p, float depth_m)
+{
+    const float low = std::max(0.5f * p.bank_m + kOnCorner_m - depth_m, 0.0f);
+    return p.corner * (1.0f - p.fade) * low * (1.0f - shared::smooth_edge(0.5f * kSlit_m, kSlit_m, low));
 }
 
 // Share of the bank over a cap that is one sheet with what lies beside it.
@@ -168,7 +176,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const
         fallen[i] = fallen_m(p, depth_m[i]);
         if (p.bank > 0.0f) {
             if (drawn.points[i] != DrawnSnow::kDrawn) continue;
-            const float over = fallen[i] + filled_m(p, fallen[i]) + bank_m(p, fallen[i]);
+            const float over = fallen[i] + filled_m(p, fallen[i]) + bank_m(p, fallen[i]) + corner_m(p, fallen[i]);
             put(i, p.base_m + vec3(0.0f, over, 0.0f), std::max(std::min(over, fallen[i]), 0.0f), fallen[i]);
             continue;
         }

@@ -1,4 +1,5 @@
 // A leaf with everything: cut out, seen from both sides, with a relief and two sets of textures.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -81,6 +82,57 @@ TEST_F(Cutout, IsSeenFromBothSidesWithBothSets)
             EXPECT_NEAR(aov(r, "normal", leafy, 32, 2), side, 0.01f) << "towards the eye";
         }
     }
+}
+
+// A tree of alpha as a texture has it: a triangle, and smaller levels that are its means.
+Texture drawn_tree()
+{
+    Texture texture = texture_of([](int x, int y) { return glm::ivec4(255, 255, 255, std::abs(2 * x - 63) < y ? 255 : 0); });
+    for (int side = 32; side >= 1; side /= 2) {
+        const std::vector<std::byte> finer = texture.mips.back();
+        std::vector<std::byte>& level = texture.mips.emplace_back();
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                for (std::size_t c = 0; c < 4; ++c) {
+                    int sum = 0;
+                    for (int k = 0; k < 4; ++k)
+                        sum += static_cast<int>(finer[4 * static_cast<std::size_t>((2 * y + k / 2) * 2 * side + 2 * x + k % 2) + c]);
+                    level.push_back(static_cast<std::byte>((sum + 2) / 4));
+                }
+            }
+        }
+    }
+    return texture;
+}
+
+// Five pixels high and of sixteen samples it is the same on both surface paths: samples share the footprint of their pixel where
+// holes are cut, too.
+TEST_F(Cutout, IsCutAsFinelyOnBothPaths)
+{
+    Material m = plain_material(glm::vec3(0.0f), 0.9f, 1.0f);  // black, whatever the light
+    m.base_color_texture.texture = 0;
+    m.alpha_mode = AlphaMode::Mask;
+    m.double_sided = true;
+    std::vector<std::vector<float>> trees;
+    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+        const auto seen = [&](const glm::vec3& corner) {
+            renderer->load(scene_of({quad(corner, {2, 0, 0}, {0, 2, 0})}, {m}), {drawn_tree()});
+            Frame frame = seen_from({0, 0, 26.0f}, path);
+            frame.settings.samples = 16;
+            frame.settings.aovs = {};
+            frame.fog.mode = FogMode::Off;
+            return renderer->render(frame);
+        };
+        const RenderResult with = seen({-1, -1, 0}), without = seen({-1, -1, 60});
+        // How many pixels of each row it hides.
+        std::vector<float>& rows = trees.emplace_back();
+        for (int y = 0; y < 64; ++y) {
+            float& hidden = rows.emplace_back(0.0f);
+            for (int x = 0; x < 64; ++x) hidden += 1.0f - luminance(pixel(with, x, y)) / luminance(pixel(without, x, y));
+        }
+    }
+    EXPECT_GT(*std::max_element(trees[0].begin(), trees[0].end()), 3.0f);
+    for (std::size_t y = 0; y < 64; ++y) EXPECT_NEAR(trees[1][y], trees[0][y], 0.1f) << y;
 }
 
 // Seen aslant, the hole in the relief is seen where the relief is, on both surface paths.

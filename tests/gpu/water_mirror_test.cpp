@@ -149,6 +149,52 @@ TEST_F(WaterMirror, APolishedFloorHasNoGrainAtOneSample)
     EXPECT_LT(steps / sum, 0.1) << "0.16 where pixels draw their facets";
 }
 
+// The least and the most of the green that a floor shows to a level look, from the first to the last column.
+struct Range {
+    float least = 1e9f, most = 0.0f;
+};
+Range greens(const RenderResult& r, int x0, int x1)
+{
+    Range range;
+    for (int y = kHeight * 3 / 4; y < kHeight * 7 / 8; ++y) {
+        for (int x = x0; x < x1; ++x) {
+            range.least = std::min(range.least, pixel(r, x, y).g);
+            range.most = std::max(range.most, pixel(r, x, y).g);
+        }
+    }
+    return range;
+}
+
+// Posts before a wall far behind them, all black, and a polished floor: between the posts it mirrors the wall, and nowhere the sky.
+TEST_F(WaterMirror, BesideThinThingsThereIsWhatLiesBehindThem)
+{
+    std::vector<Primitive> faces{quad({-6, 0, 3}, {12, 0, 0}, {0, 0, -12}, 0), quad({-60, -5, -40}, {120, 0, 0}, {0, 60, 0}, 1)};
+    for (int i = 0; i < 24; ++i)
+        faces.push_back(quad({-6.0f + 0.5f * static_cast<float>(i), 0, -6}, {0.06f, 0, 0}, {0, 3, 0}, 1));
+    renderer->load(scene_of(faces, {plain_material(glm::vec3(0.9f), 0.1f, 1.0f), plain_material(glm::vec3(0.0f), 0.9f, 1.0f)}), {});
+    Frame frame = over_the_floor();
+    frame.camera = look({0, 1.5f, 4.0f}, {0, 1.45f, -2.0f}, 0.7f);
+    const float seen = greens(renderer->render(frame), kWidth / 4, kWidth * 3 / 4).most;
+    frame.settings.reflections = false;
+    const float sky = greens(renderer->render(frame), kWidth / 4, kWidth * 3 / 4).least;
+    EXPECT_LT(seen, 0.1f * sky);
+}
+
+// A black wall that goes on beyond the picture: so does its mirror image, up to the picture's sides.
+TEST_F(WaterMirror, GoesOnToTheSidesOfThePicture)
+{
+    renderer->load(scene_of({quad({-60, 0, 3}, {120, 0, 0}, {0, 0, -12}, 0), quad({-60, 0, -6}, {120, 0, 0}, {0, 30, 0}, 1)},
+                            {plain_material(glm::vec3(0.9f), 0.1f, 1.0f), plain_material(glm::vec3(0.0f), 0.9f, 1.0f)}),
+                   {});
+    Frame frame = over_the_floor();
+    frame.camera = look({0, 1.5f, 4.0f}, {0, 1.45f, -2.0f}, 0.7f);
+    const RenderResult on = renderer->render(frame);
+    frame.settings.reflections = false;
+    const RenderResult off = renderer->render(frame);
+    EXPECT_LT(greens(on, 0, 8).most, 0.1f * greens(off, 0, 8).least);
+    EXPECT_LT(greens(on, kWidth - 8, kWidth).most, 0.1f * greens(off, kWidth - 8, kWidth).least);
+}
+
 // A chrome floor before a red wall under a blue sky: without the picture it mirrors the sky alone.
 TEST_F(WaterMirror, WithoutThePictureFloorsMirrorTheSky)
 {

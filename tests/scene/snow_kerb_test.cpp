@@ -81,17 +81,18 @@ private:
     std::optional<Tracer> tracer_;
 };
 
+SnowCaps caps_seen_from(const Scene& scene, const vec3& eye)
+{
+    const Triangles triangles(scene, {});
+    const Tracer tracer(triangles);
+    SnowCapOptions options;
+    options.eyes_m = {eye};
+    return build_snow_caps(tracer, options);
+}
+
 struct Street {
     Scene scene = demo::make_demo_street({.texture_size = 16});
-    SnowCaps caps;
-    Street()
-    {
-        const Triangles triangles(scene, {});
-        const Tracer tracer(triangles);
-        SnowCapOptions options;
-        options.eyes_m = {{0.0f, 1.6f, 7.0f}};
-        caps = build_snow_caps(tracer, options);
-    }
+    SnowCaps caps = caps_seen_from(scene, {0.0f, 1.6f, 7.0f});
 };
 const Street& street()
 {
@@ -137,6 +138,31 @@ TEST(SnowOnKerbs, LeavesNoStoneBetween)
             RecordProperty(std::string(kerb.name) + std::to_string(depth), std::to_string(share));
             EXPECT_LT(share, 0.0005) << kerb.name << " " << depth;
         }
+    }
+}
+
+// Nor farther from the eye, at joints of both the kerb and its gutter, under snow that is hardly as deep as the kerb is high.
+TEST(SnowOnKerbs, LeavesNoStoneAtJointsAndFarAway)
+{
+    const vec3 eye(0.9f, 1.5f, 6.0f);
+    const SnowCaps caps = caps_seen_from(street().scene, eye);
+    struct Look {
+        const char* name;
+        float depth, side, from_z, to_z, most;
+    };
+    for (const Look& part : {Look{"left", 0.087f, -1.0f, 1.0f, 5.0f, 0.001f}, Look{"right", 0.087f, 1.0f, -3.9f, 5.0f, 0.001f},
+                             Look{"far", 0.16f, 1.0f, -6.9f, -5.0f, 0.001f}}) {
+        const Snowed snowed(street().scene, caps, part.depth);
+        int all = 0, stone = 0;
+        for (float z = part.from_z; z < part.to_z; z += 0.017f) {
+            for (float x = 2.4f; x < 2.6f; x += 0.013f) {
+                ++all;
+                stone += snowed.look(eye, {part.side * x, 0.1f, z}).snow ? 0 : 1;
+            }
+        }
+        const float share = static_cast<float>(stone) / static_cast<float>(all);
+        RecordProperty(part.name, std::to_string(share));
+        EXPECT_LE(share, part.most) << part.name;
     }
 }
 

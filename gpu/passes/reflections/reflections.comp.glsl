@@ -1,7 +1,8 @@
 #version 460
 // What smooth surfaces mirror: the picture itself where the reflected ray meets it, else the probes
 // around, else the sky. The ray is walked through the depth of this sample; where no probe serves, the sky
-// stands in, dimmed by how much of it the place sees.
+// stands in, dimmed by how much of it the place sees. Just beyond the sides of the picture, where no probe serves either, land
+// and houses are taken to go on as the picture does, the other way round.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -43,16 +44,25 @@ const int kStepsAtOnce = 4;
 const int kRefinements = 2;  // of two halvings, and one more
 const int kTaps = 4;  // at one sample
 const float kWidest_px = 24.0;
+const float kBeyond = 0.125;  // of the width: so far the picture is taken to go on beyond its sides
 
 struct Hit {
     vec2 pixel;
     float confidence;  // 0: nothing met
+    float inside;      // the same, if nothing is known beyond the sides of the picture
     bool hidden;       // where the ray went behind what is seen, not where it met it
 };
 
+// The pixel that stands for a place, beyond the sides of the picture the one as far inside.
+vec2 turned_back(vec2 pixel)
+{
+    const float wide = float(frame.size.x);
+    return vec2(wide - abs(wide - abs(pixel.x)), pixel.y);
+}
+
 float scene_depth_m(vec2 pixel)
 {
-    const ivec2 at = clamp(ivec2(pixel), ivec2(0), frame.size - 1);
+    const ivec2 at = clamp(ivec2(turned_back(pixel)), ivec2(0), frame.size - 1);
     const float d = texelFetch(depth_rows, row_texel(at, frame.size)).r;
     return d > 0.0 ? linear_depth(frame, d) : 1.0e9;
 }
@@ -83,7 +93,8 @@ ScreenRay screen_ray(vec3 origin, vec3 direction)
         ray.to = on_screen(begin + along * clamp(t, 0.0, 1.0e4));
     }
     const vec2 delta = ray.to.xy - ray.from.xy;
-    const vec2 limit = mix(vec2(0.5), vec2(frame.size) - 0.5, greaterThan(delta, vec2(0.0)));
+    const vec2 beyond = vec2(kBeyond * float(frame.size.x), -0.5);
+    const vec2 limit = mix(-beyond, vec2(frame.size) + beyond, greaterThan(delta, vec2(0.0)));
     const vec2 reach = (limit - ray.from.xy) / mix(delta, vec2(1.0e-6), lessThan(abs(delta), vec2(1.0e-6)));
     const float kept = clamp(min(reach.x, reach.y), 0.0, 1.0);
     ray.to = mix(ray.from, ray.to, kept);
@@ -128,6 +139,7 @@ Hit trace(vec3 origin, vec3 direction)
 {
     Hit hit;
     hit.confidence = 0.0;
+    hit.inside = 0.0;
     hit.hidden = false;
     const ScreenRay ray = screen_ray(origin, direction);
     const float pixels = length(ray.to.xy - ray.from.xy);
@@ -174,13 +186,19 @@ Hit trace(vec3 origin, vec3 direction)
         const float last = 0.5 * (low + high);
         if (is_behind(ray, last)) high = last;
         hit.pixel = mix(ray.from, ray.to, high).xy;
-        const vec2 edge = min(hit.pixel, vec2(frame.size) - hit.pixel) / vec2(frame.size);
-        hit.confidence = clamp(min(edge.x, edge.y) * 30.0, 0.0, 1.0);
+        hit.confidence = 1.0;
     } else if (hidden >= 0.0) {
         // It never came out again: what hides it is likelier what it meets than the sky.
         hit.pixel = mix(ray.from, ray.to, hidden).xy;
         hit.confidence = 0.8;
         hit.hidden = true;
+    }
+    if (hit.confidence > 0.0) {
+        const vec2 edge = min(hit.pixel, vec2(frame.size) - hit.pixel) / vec2(frame.size);
+        const vec2 ends = hit.hidden ? step(vec2(0.0), edge) : clamp(edge * 30.0, 0.0, 1.0);
+        hit.inside = hit.confidence * min(ends.x, ends.y);
+        hit.confidence *= min(clamp(1.0 + edge.x / kBeyond, 0.0, 1.0), ends.y);
+        hit.pixel = turned_back(hit.pixel);
     }
     return hit;
 }
@@ -203,9 +221,9 @@ float spread_px(vec3 position, vec2 pixel, float alpha)
     return clamp(2.8 * alpha * length(met - position) / max(pixel_width_m(frame, hit_m), 1.0e-6), 0.0, kWidest_px);
 }
 
-// The mean of that disc, the same part of it for all pixels of a sample: no grain. What lies much nearer or farther
-// than what was met is not there in the mirror: `other` stands for it.
-vec3 seen_around(vec2 pixel, float radius, float roughness, vec3 other)
+// The mean of that disc, the same part of it for all pixels of a sample: no grain. What lies much nearer than what
+// was met is not there in the mirror: `met` stands for it. What lies farther is about what rays beside it go on to.
+vec3 seen_around(vec2 pixel, float radius, float roughness, vec3 met)
 {
     const float hit_m = scene_depth_m(pixel);
     const float turn = 0.61803399 * float(frame.sample_index);
@@ -216,9 +234,9 @@ vec3 seen_around(vec2 pixel, float radius, float roughness, vec3 other)
         const float way = radius * sqrt(k / float(taps));
         const float angle = 2.39996323 * k + 6.2831853 * turn;
         const vec2 at = pixel + way * vec2(cos(angle), sin(angle));
-        const bool there = abs(scene_depth_m(at) - hit_m) < 0.15 * hit_m + 0.05;
+        const bool nearer = scene_depth_m(at) < 0.85 * hit_m - 0.05;
         const vec3 seen = picture_at(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1), roughness);
-        sum += there ? seen : other;
+        sum += nearer ? met : seen;
     }
     return sum / float(taps);
 }
@@ -277,6 +295,7 @@ void main()
 
         Hit hit;
         hit.confidence = 0.0;
+        hit.inside = 0.0;
         hit.hidden = false;
         if (PICTURE != 0u && (frame.flags & FRAME_ORTHOGRAPHIC) == 0u && dot(ray, n) > 0.0 && roughness < kWideRoughness) {
             // Water stands above the relief that the depth map knows.
@@ -296,6 +315,8 @@ void main()
                                 sky * (probed.light.a * mix(frame.bounce * 0.7, 1.0, here));
             mirrored = mix(mirrored, around, probed.share);
             probed_share = probed.share;
+            // A probe knows what is beside the picture.
+            hit.confidence = mix(hit.confidence, hit.inside, probed.share);
             // A probe saw what is behind there: where it saw the sky, the ray goes on to it.
             if (hit.hidden) hit.confidence *= 1.0 - probed.share * probed.light.a;
         }
@@ -305,7 +326,7 @@ void main()
             const float radius = spread_px(position, hit.pixel, (1.0 - drawn) * alpha);
             // A loop that ends at once where one pixel is enough: a CPU takes both sides of a branch.
             for (int k = 0; k < (radius > 0.7 ? 1 : 0); ++k)
-                seen = seen_around(hit.pixel, radius, roughness, mirrored);
+                seen = seen_around(hit.pixel, radius, roughness, seen);
             mirrored = mix(mirrored, seen, hit.confidence);
         }
         mirrored_light = weight * mirrored;

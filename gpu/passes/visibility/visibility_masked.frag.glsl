@@ -2,6 +2,7 @@
 // As visibility.frag, for materials with holes.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "formulas/geometry/footprint.h"
 #include "gpu/passes/surface/holes.glsl"
 #include "gpu/passes/surface/parallax.glsl"
 #include "gpu/passes/visibility/visibility_io.h"
@@ -33,6 +34,12 @@ void main()
         at.weather = vec4(1.0);
         sink(at);
     }
+    // The samples of a pixel share its footprint, as where it is shaded: in the level of a whole pixel what is cut out finely, as a bough
+    // far away, is a lump, however many samples look.
+    const float finer = footprint_scale(at.uv_dx.xy, at.uv_dy.xy, frame.samples);
+    const float second = footprint_scale(at.uv_dx.zw, at.uv_dy.zw, frame.samples);
+    at.uv_dx *= vec4(finer, finer, second, second);
+    at.uv_dy *= vec4(finer, finer, second, second);
     if (FADE != 0u && faded(draw.fade, at.pixel)) discard;
     if (hole_in(at, alpha_at(at))) discard;
     out_id = id_of(in_draw);

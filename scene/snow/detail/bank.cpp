@@ -20,11 +20,12 @@ using glm::vec4;
 constexpr float kSteepStep = 0.7f;      // steps from cell to cell that are no steeper are slopes
 constexpr float kReach_m = 0.22f;       // so far from a step the sheet reaches
 constexpr float kFade_m = 0.07f;        // .. and goes under the caps along the last of it
+constexpr float kCorner_m = 0.18f;      // so far from a step a bank is heaped up
 constexpr float kSteepest = 0.87f;      // y of the normal of the smoothed ground: steeper is no place for a bank
 constexpr float kEdge_m = 0.1f;         // from a deep edge: none within this, a whole one from twice as far on
-constexpr float kFine_m = 3.0f;         // as fine as the sheet's cells up to here from an eye, half as fine beyond
+constexpr std::array<float, 3> kReaches_m{3.0f, 11.0f, 22.0f};  // up to here from an eye a level of cells, each half as fine
+constexpr float kFarthest_m = kReaches_m.back();
 constexpr float kOverlap_m = 0.4f;
-constexpr float kFarthest_m = 11.0f;
 constexpr float kOfGround_m = 0.04f;
 constexpr float kHolds = 0.02f;         // share of the depth: less is no ground that snow lies on
 
@@ -152,9 +153,9 @@ std::vector<BankPart> lay_banks(SnowCaps& caps, const CutMesh& mesh, const Sheet
     std::map<std::uint32_t, BankPart> parts;
     std::map<std::pair<int, int>, std::uint32_t> numbers;  // of a level's cell
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> corners;  // of a primitive and a point
-    for (int level = 0; level < 2; ++level) {
+    for (std::size_t level = 0; level < kReaches_m.size(); ++level) {
         const int stride = 1 << level;
-        const float from_m = level == 0 ? 0.0f : kFine_m - kOverlap_m, to_m = level == 0 ? kFine_m : kFarthest_m;
+        const float from_m = level == 0 ? 0.0f : kReaches_m[level - 1] - kOverlap_m, to_m = kReaches_m[level];
         numbers.clear();
         const auto point_of = [&](int x, int z, const Sheet::Layer& layer) {
             const auto [found, fresh] = numbers.try_emplace({x, z}, static_cast<std::uint32_t>(laid.size()));
@@ -177,6 +178,7 @@ std::vector<BankPart> lay_banks(SnowCaps& caps, const CutMesh& mesh, const Sheet
             const std::size_t cell = ground.index(x, z);
             point.bank = 1.0f;
             point.bank_m = std::max(step[cell], 1.0e-3f);
+            point.corner = 1.0f - shared::smooth_edge(0.0f, kCorner_m, away[cell]);
             float fade = shared::smooth_edge(kReach_m - kFade_m, kReach_m - 0.5f * cell_m, away[cell]);
             fade = std::max(fade, shared::smooth_edge(to_m - kOverlap_m, to_m - 0.1f, far));
             fade = std::max(fade, 1.0f - shared::smooth_edge(kSteepest - 0.05f, kSteepest + 0.05f, up));

@@ -16,6 +16,8 @@ constexpr float kWideGround_m2 = 0.6f;    // ground that hangs together and is n
 constexpr float kWidePlateau_m2 = 0.25f;  // what stands higher than all around it and is no larger is a thing
 constexpr float kHeadroom_m = 1.0f;
 constexpr int kThing = 3;                 // cells: what is no wider than twice this is no ground
+constexpr float kNoHeight_m = 1.0e9f;
+constexpr int kCloses = 3;                // cells: joints no wider than twice this are as high as their stones
 constexpr float kWidth = 1.6f;            // radius of the circle, over the depth, as that of the caps
 
 class Groups {
@@ -178,26 +180,32 @@ void OneGround::leave_out_things(const std::function<bool(std::uint32_t)>& is_gr
 void OneGround::close_joints()
 {
     heights_.assign(top_.size(), 0.0f);
-    std::vector<float> highest(top_.size(), -1.0e9f);
-    const auto around = [&](int x, int z, const auto& visit) {
-        for (int k = 0; k < 9; ++k)
-            if (inside(x + k % 3 - 1, z + k / 3 - 1)) visit(x + k % 3 - 1, z + k / 3 - 1);
-    };
-    for (int z = 0; z < height_; ++z)
-        for (int x = 0; x < width_; ++x)
-            around(x, z, [&](int i, int j) {
-                if (const Sheet::Layer* there = at(i, j)) highest[index(x, z)] = std::max(highest[index(x, z)], there->height_m);
-            });
-    for (int z = 0; z < height_; ++z) {
-        for (int x = 0; x < width_; ++x) {
-            const Sheet::Layer* own = at(x, z);
-            if (own == nullptr) continue;
-            float lowest = 1.0e9f;
-            around(x, z, [&](int i, int j) {
-                if (highest[index(i, j)] > -1.0e8f) lowest = std::min(lowest, highest[index(i, j)]);
-            });
-            heights_[index(x, z)] = lowest - own->height_m < kHighestStep_m ? std::max(lowest, own->height_m) : own->height_m;
+    std::vector<float> own(top_.size(), -kNoHeight_m);
+    for (std::size_t i = 0; i < own.size(); ++i)
+        if (top_[i] != Sheet::kNoLayer) own[i] = sheet_->layers()[top_[i]].height_m;
+    // The highest around, then the lowest of those, along rows and columns; where there is none nothing counts.
+    std::vector<float> rows(own.size());
+    const auto pass = [&](const std::vector<float>& in, std::vector<float>& out, int dx, int dz, bool highest) {
+        for (int z = 0; z < height_; ++z) {
+            for (int x = 0; x < width_; ++x) {
+                float best = highest ? -kNoHeight_m : kNoHeight_m;
+                for (int k = -kCloses; k <= kCloses; ++k) {
+                    if (!inside(x + k * dx, z + k * dz)) continue;
+                    const float there = in[index(x + k * dx, z + k * dz)];
+                    if (highest || there > -kNoHeight_m) best = highest ? std::max(best, there) : std::min(best, there);
+                }
+                out[index(x, z)] = best;
+            }
         }
+    };
+    std::vector<float> closed(own.size());
+    pass(own, rows, 1, 0, true);
+    pass(rows, closed, 0, 1, true);
+    pass(closed, rows, 1, 0, false);
+    pass(rows, closed, 0, 1, false);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        if (top_[i] == Sheet::kNoLayer) continue;
+        heights_[i] = closed[i] - own[i] < kHighestStep_m ? std::max(closed[i], own[i]) : own[i];
     }
 }
 

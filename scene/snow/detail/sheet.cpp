@@ -14,7 +14,7 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-constexpr double kMostCells = 3.0e6;
+constexpr double kMostCells = 4.0e6;
 constexpr float kWidth = 1.6f;     // radius of the circle, over the depth
 constexpr float kUnder_m = 0.01f;  // snow of what lies below something goes so far under the snow on that
 constexpr float kCovered_m = 0.06f; // the road under a lid, a gutter under bars
@@ -26,6 +26,7 @@ constexpr float kMostFill = 0.9f;   // of the depth, up or down
 constexpr float kThin_m = 0.02f;    // half the width of what keeps its own cap in any snow ..
 constexpr float kNotThin_m = 0.045f;  // .. and of a kerb, which does not
 constexpr float kNear_m = 14.0f;
+constexpr float kOfBanks_m = 24.0f;
 constexpr float kCell_m = 0.025f;
 constexpr float kClose_m = 2.2f;      // what is looked at from here is a thing on a table ..
 constexpr float kCloseCell_m = 0.006f;
@@ -174,7 +175,7 @@ Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>&
         for (const vec3& eye : options.eyes_m) nearest = std::min(nearest, glm::distance(eye, p));
         return nearest;
     };
-    const Sheet near(caps, mesh, kCell_m, [&](const vec3& p) { return eye_m(p) < kNear_m; });
+    const Sheet near(caps, mesh, kCell_m, [&](const vec3& p) { return eye_m(p) < kOfBanks_m; });
     const Sheet close(caps, mesh, kCloseCell_m, [&](const vec3& p) { return !options.eyes_m.empty() && eye_m(p) < kClose_m; });
     const float close_m = !options.eyes_m.empty() && close.width() > 0 && close.cell_m() < kCloseUp * kCell_m ? kClose_m - 0.5f : 0.0f;
     const Sheet far(caps, mesh, kFarCell_m, [](const vec3&) { return true; });
