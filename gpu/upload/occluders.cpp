@@ -14,10 +14,6 @@ constexpr float kBehind = 1.0e-4f;   // of the map's depth: what hides is so muc
 constexpr float kFlat = 1.0e-5f;     // how far a corner may lie off the plane of the others, of their size
 constexpr int kMostCells = 4096;     // that are asked for a box
 
-}  // namespace
-
-namespace {
-
 // The fourth corner of a flat, convex face that two triangles with a common side make, put in its place.
 bool join(LargeFace& face, std::span<const glm::vec3> positions, std::uint32_t first_vertex, const std::uint32_t* other)
 {

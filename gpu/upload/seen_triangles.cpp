@@ -2,16 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
+#include "base/four.h"
 #include "gpu/upload/detail/corners.h"
-#include "gpu/upload/detail/four.h"
 #include "gpu/upload/draw.h"
 #include "gpu/upload/steep_io.h"
 
 namespace petrichor::gpu {
 
 namespace {
+
+// With 0 for the last.
+Four three(Four v)
+{
+    const Signs kept{-1, -1, -1, 0};
+    Signs bits;
+    std::memcpy(&bits, &v, sizeof bits);
+    bits &= kept;
+    std::memcpy(&v, &bits, sizeof v);
+    return v;
+}
 
 // Rasterizers round to 1/256 of a pixel.
 constexpr float kSlack = 1.0f / 64.0f;
@@ -208,11 +220,11 @@ void SeenTriangles::list_draw(const GpuScene& scene, const SampledView& view, bo
             if ((a.outside & b.outside & c.outside) != 0u) continue;
             const Four at_a = four(&a), at_b = four(&b), at_c = four(&c);
             // The last lane holds bits.
-            const Four least = three(lesser(at_a, lesser(at_b, at_c))), most = three(greater(at_a, greater(at_b, at_c)));
+            const Four least = three(smaller(smaller(at_c, at_b), at_a)), most = three(larger(larger(at_c, at_b), at_a));
             if (a.nearer > 0.0f && b.nearer > 0.0f && c.nearer > 0.0f) {
                 const float slack = kSlack + rounding * most[2];
                 const Four low = least - slack, high = most + slack;
-                if (any((high < ends_low) | (low > ends_high))) continue;
+                if (!none((high < ends_low) | (low > ends_high))) continue;
                 const float across = high[0] - low[0], down = high[1] - low[1];
                 if (turned_away || hidden) {
                     const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gpu/upload/detail/four.h"
+#include "base/four.h"
 
 namespace petrichor::gpu {
 
@@ -37,8 +37,8 @@ std::vector<TriangleBlock> blocks_of(std::span<const glm::vec3> positions, std::
         for (std::size_t k = at; k < end; ++k) {
             const glm::vec3& of = positions[indices[k] - first_vertex];
             const Four p{of.x, of.y, of.z, 0.0f};
-            low = lesser(low, p);
-            high = greater(high, p);
+            low = smaller(p, low);
+            high = larger(p, high);
             sum += p - p;  // 0, or not a number
         }
         const Four centre = 0.5f * (low + high) + sum, half = 0.5f * (high - low);
@@ -96,9 +96,9 @@ bool BlockSieve::leaves_out(const TriangleBlock& block) const
                (ax * size.x + ay * size.y + az * size.z + absolute(rest)) * kRounding;
     };
     const float slack = (slack_ + rounding_ / nearest) * (middle + reach) * (1.0f + kRounding);
-    if (any(most(frame_) < all(-slack))) return true;
+    if (!none(most(frame_) < all(-slack))) return true;
     for (int k = 0; k < asked_fours_; ++k)
-        if (any(most(asked_[k]) < all(0.0f))) return true;
+        if (!none(most(asked_[k]) < all(0.0f))) return true;
     return false;
 }
 

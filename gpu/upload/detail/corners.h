@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "gpu/upload/detail/four.h"
+#include "base/four.h"
 #include "gpu/upload/seen_triangles.h"
 
 namespace petrichor::gpu {
@@ -41,16 +41,16 @@ private:
             return (x * matrix_[0][k] + y * matrix_[1][k]) + (z * matrix_[2][k] + matrix_[3][k]);
         };
         const Four clip_x = row(0), clip_y = row(1), clip_w = row(3);
-        const FourBits before = clip_w > all(1.0e-6f);
+        const Signs before = clip_w > all(1.0e-6f);
         const Four nearer = 1.0f / clip_w;
         const Four across = (clip_x * nearer * 0.5f + 0.5f) * width_;
         const Four down = (clip_y * nearer * 0.5f + 0.5f) * height_;
         // What is not a number is inside of all.
-        FourBits outside = row(2) < all(asked_.least_z);
-        outside &= FourBits{} + std::int32_t{INT32_MIN};
+        Signs outside = row(2) < all(asked_.least_z);
+        outside &= Signs{} + std::int32_t{INT32_MIN};
         for (int i = 0; i < asked_.count; ++i) {
             const glm::vec3& line = asked_.lines[static_cast<std::size_t>(i)];
-            const FourBits beyond = clip_x * line.x + clip_y * line.y + line.z < all(0.0f);
+            const Signs beyond = clip_x * line.x + clip_y * line.y + line.z < all(0.0f);
             outside |= beyond & (std::int32_t{1} << i);
         }
         for (int k = 0; k < 4; ++k) {

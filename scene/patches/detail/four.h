@@ -1,41 +1,12 @@
-// Four floats that one instruction works on: the compiler's own vectors, on any machine. Each lane has the bits that a
-// float alone would have.
+// Vectors of the world, four at a time.
 #ifndef PETRICHOR_SCENE_PATCHES_DETAIL_FOUR_H
 #define PETRICHOR_SCENE_PATCHES_DETAIL_FOUR_H
 
-#include <cstdint>
-#include <cstring>
 #include <glm/glm.hpp>
 
+#include "base/four.h"
+
 namespace petrichor::scene {
-
-using Four = float __attribute__((vector_size(16)));
-using Signs = std::int32_t __attribute__((vector_size(16)));  // -1: the lane's comparison holds
-
-inline Four four(const float* from)
-{
-    Four lanes;
-    std::memcpy(&lanes, from, sizeof lanes);
-    return lanes;
-}
-inline Four all(float x)
-{
-    return Four{x, x, x, x};
-}
-inline Four larger(Four a, Four b)
-{
-    return a > b ? a : b;
-}
-inline Four smaller(Four a, Four b)
-{
-    return a < b ? a : b;
-}
-inline bool none(Signs mask)
-{
-    std::uint64_t halves[2];
-    std::memcpy(halves, &mask, sizeof halves);
-    return (halves[0] | halves[1]) == 0;
-}
 
 struct Four3 {
     Four x, y, z;

@@ -1,0 +1,42 @@
+// Four floats that one instruction works on: the compiler's own vectors, on any machine. Each lane has the bits that a
+// float alone would have.
+#ifndef PETRICHOR_BASE_FOUR_H
+#define PETRICHOR_BASE_FOUR_H
+
+#include <cstdint>
+#include <cstring>
+
+namespace petrichor {
+
+using Four = float __attribute__((vector_size(16)));
+using Signs = std::int32_t __attribute__((vector_size(16)));  // -1: the lane's comparison holds
+
+inline Four four(const void* from)
+{
+    Four lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+inline Four all(float x)
+{
+    return Four{x, x, x, x};
+}
+// Of what is not a number, the second.
+inline Four larger(Four a, Four b)
+{
+    return a > b ? a : b;
+}
+inline Four smaller(Four a, Four b)
+{
+    return a < b ? a : b;
+}
+inline bool none(Signs mask)
+{
+    std::uint64_t halves[2];
+    std::memcpy(halves, &mask, sizeof halves);
+    return (halves[0] | halves[1]) == 0;
+}
+
+}  // namespace petrichor
+
+#endif
