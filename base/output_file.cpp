@@ -144,9 +144,10 @@ int make_locked(const fs::path& folder, const std::string& extension, fs::path& 
             if (errno == EEXIST) continue;
             throw cannot_write(wanted, errno);
         }
-        // Where locks do not work (some network folders) nothing is ever taken for left behind.
-        (void)!::flock(fd, LOCK_EX | LOCK_NB);
-        if (still_named(fd, path)) {
+        // Locked by somebody else: who is about to remove it. Where locks do not work (some network folders) nothing is
+        // ever taken for left behind.
+        const bool taken = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        if (!taken && still_named(fd, path)) {
             own().temporaries.insert(fs::absolute(path));
             return fd;
         }
