@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <map>
 #include <optional>
 #include <thread>
@@ -340,6 +341,14 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
     while (renderers.size() < count) renderers.emplace_back(device, maps);
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
+    // Caps of snow are one thread's work of seconds: beside the tracing of patches, which leaves the scene as it is too.
+    std::vector<std::string> snow_notes;
+    std::future<std::shared_ptr<const scene::SnowCaps>> snow_made =
+        std::async(request.threads == 1 ? std::launch::deferred : std::launch::async,
+                   [&]() -> std::shared_ptr<const scene::SnowCaps> {
+                       if (!may_snow(sequence, request)) return nullptr;
+                       return prepare_snow(sequence.scene, sequence.eyes_m, maps.tracks, user_cache(), snow_notes);
+                   });
     std::shared_ptr<const gpu::PatchScene> patches;
     if (wants_patches(sequence)) {
         TransportOptions transport;
@@ -360,9 +369,8 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
         }
         report.notes.push_back("light between surfaces: ambient " + why);
     }
-    std::shared_ptr<const scene::SnowCaps> snow;
-    if (may_snow(sequence, request))
-        snow = prepare_snow(sequence.scene, sequence.eyes_m, maps.tracks, user_cache(), report.notes);
+    const std::shared_ptr<const scene::SnowCaps> snow = snow_made.get();
+    report.notes.insert(report.notes.end(), snow_notes.begin(), snow_notes.end());
     TextureOptions options;
     options.max_size = scenario.scene.max_texture;
     options.prefilter.rule = scenario.scene.texture_rule;
