@@ -586,12 +586,14 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         variant.parts = &lit_parts;
         variant.pixels = pixels;
         add_background(graph, *r.targets, *r.sky, constants, variant);
+        const bool label = r.parts->label && i == 0;
+        if (label && settings.image_based_light) clear_mirrors(graph, *r.targets);
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, *r.probes, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, &r.parts->sum_or_none(),
-                             r.parts->label && i == 0, variant.mirrors_picture,
+                             label, variant.mirrors_picture,
                              variant.emission && r.lights->glows},
                             pixels);
         }

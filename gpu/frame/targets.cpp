@@ -160,7 +160,8 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     GBUFFER_TABLE(ROW)
 #undef ROW
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
-    targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
+    targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT,
+                                   storage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
 

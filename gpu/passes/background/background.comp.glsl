@@ -23,7 +23,6 @@ layout(binding = BACKGROUND_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = BACKGROUND_SKY) uniform samplerCube sky_map;
 layout(binding = BACKGROUND_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = BACKGROUND_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
-layout(binding = BACKGROUND_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = BACKGROUND_PARTS, rgba32f) uniform image2DArray light_parts;
 
 const uint GUSTS = 0u;
@@ -127,9 +126,6 @@ void main()
         parts.of[PART_BACKGROUND] = result.rgb;
         store_parts(parts, texel);
     }
-    if (MIRRORED != 0u) {
-        imageStore(radiance_out, texel, result);
-        imageStore(mirror_weight, texel, vec4(0.0));
-    }
+    if (MIRRORED != 0u) imageStore(radiance_out, texel, result);
     imageStore(accumulated, texel, frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
 }

@@ -22,7 +22,6 @@ void add_background(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky, cons
                                   {BACKGROUND_PIXELS, texels(pixels_of(targets, targets.open_tiles, variant.pixels))},
                                   {BACKGROUND_ACCUMULATED, storage(*targets.accumulated)},
                                   {BACKGROUND_RADIANCE, storage(*targets.radiance)},
-                                  {BACKGROUND_MIRROR_WEIGHT, storage(*targets.mirror_weight)},
                                   {BACKGROUND_PARTS, storage(*variant.parts)}},
                      .push = {},
                      .groups = {}};

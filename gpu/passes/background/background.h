@@ -9,7 +9,7 @@ namespace petrichor::gpu {
 // every pixel.
 //
 //   reads    depth_rows, open_tiles, sky
-//   writes   there: radiance, mirror_weight with image-based light
+//   writes   there: radiance with image-based light
 //   edits    there: accumulated; light_parts of frames that ask
 void add_background(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky, const ConstantsRange& constants,
                     const LightingVariant& variant);

@@ -10,8 +10,7 @@
 #define BACKGROUND_PIXELS 3       // gpu/frame/pixel_list_io.h
 #define BACKGROUND_ACCUMULATED 4
 #define BACKGROUND_RADIANCE 5
-#define BACKGROUND_MIRROR_WEIGHT 6
-#define BACKGROUND_PARTS 7
+#define BACKGROUND_PARTS 6
 
 // Specialization constants: 0 leaves the part out of the compiled shader.
 #define BACKGROUND_SPEC_SKY 0      // 0: black

@@ -467,9 +467,12 @@ void main()
     const vec4 result = vec4(min(radiance, vec3(60000.0)), 1.0);
     if (IMAGE_BASED_LIGHT != 0u) {
         imageStore(radiance_out, texel, result);
-        imageStore(mirror_weight, texel, mirror);
-        imageStore(mirror_shape, texel, shape);
-        list_mirror(mirror.r + mirror.g + mirror.b > 0.0, texel);
+        const bool mirrors = mirror.r + mirror.g + mirror.b > 0.0;
+        if (mirrors) {  // no other is read
+            imageStore(mirror_weight, texel, mirror);
+            imageStore(mirror_shape, texel, shape);
+        }
+        list_mirror(mirrors, texel);
     }
     imageStore(accumulated, texel, frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
 }

@@ -55,7 +55,7 @@ struct LightingVariant {
 // Where a surface is: applies weather to the dry material, then light, and adds the sample to the sum.
 //
 //   reads    the G-buffer, depth_rows, surface_tiles, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patch_points
-//   writes   radiance, mirror_weight, mirror_shape, mirror_list for the reflections, with image-based light
+//   writes   radiance, mirror_list and for its pixels mirror_weight and mirror_shape for the reflections, with image-based light
 //   edits    accumulated; light_parts of frames that ask
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, LightTables& light_tables, SkyMaps& sky,

@@ -7,6 +7,19 @@
 
 namespace petrichor::gpu {
 
+void clear_mirrors(FrameGraph& graph, FrameTargets& targets)
+{
+    GpuImage& image = *targets.mirror_weight;
+    graph.add(TransferPass{.name = "reflections",
+                           .transfers = {{&image, nullptr, Use::TransferTarget}},
+                           .record = [&image](VkCommandBuffer commands) {
+                               const VkClearColorValue nothing{};
+                               const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+                               vkCmdClearColorImage(commands, image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                                    &nothing, 1, &all);
+                           }});
+}
+
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
                      const MirrorOutputs& outputs, Pixels pixels)

@@ -18,6 +18,11 @@ struct MirrorOutputs {
     bool glows = false;         ///< surfaces that glow are lights, too
 };
 
+// For a pass that labels pixels which mirror nothing, too: the lighting tells the others alone.
+//
+//   writes   mirror_weight
+void clear_mirrors(FrameGraph& graph, FrameTargets& targets);
+
 // Adds what smooth surfaces mirror of the picture itself, else of the probes around, else of the sky.
 //
 //   reads    depth, radiance, mirror_weight, mirror_shape, mirror_list, sky_specular, probes
