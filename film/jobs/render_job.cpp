@@ -347,7 +347,8 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
         std::async(request.threads == 1 ? std::launch::deferred : std::launch::async,
                    [&]() -> std::shared_ptr<const scene::SnowCaps> {
                        if (!may_snow(sequence, request)) return nullptr;
-                       return prepare_snow(sequence.scene, sequence.eyes_m, maps.tracks, user_cache(), snow_notes);
+                       return prepare_snow(sequence.scene, sequence.eyes_m, maps.tracks, user_cache(), request.stop,
+                                           snow_notes);
                    });
     std::shared_ptr<const gpu::PatchScene> patches;
     if (wants_patches(sequence)) {

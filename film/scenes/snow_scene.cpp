@@ -48,11 +48,12 @@ std::string key_of(const scene::Scene& scene, const scene::Triangles& triangles,
 std::shared_ptr<const scene::SnowCaps> prepare_snow(const scene::Scene& scene,
                                                     const std::vector<glm::vec3>& eyes_m,
                                                     const gpu::TrackMap& tracks,
-                                                    const ContentCache& cache,
+                                                    const ContentCache& cache, const StopRequest& stop,
                                                     std::vector<std::string>& notes)
 {
     scene::SnowCapOptions options;
     options.eyes_m = eyes_m;
+    options.stop = stop;
     if (tracks.width > 0)
         options.pressed = [&tracks](const glm::vec3& at) { return pressed_at(tracks, at); };
     std::string key;

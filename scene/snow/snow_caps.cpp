@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "scene/snow/detail/bank.h"
@@ -45,6 +46,24 @@ bool is_trodden(const SnowCapOptions& options, const vec3& a, const vec3& b)
     return false;
 }
 
+// Asks whether to go on: between parts of the work, and now and then in one.
+class Stops {
+public:
+    explicit Stops(const StopRequest& stop) : stop_(stop) {}
+    void ask() const
+    {
+        if (stop_ && stop_()) throw Interrupted("interrupted while the snow was shaped");
+    }
+    void ask_sometimes()
+    {
+        if (++count_ % 65536 == 0) ask();
+    }
+
+private:
+    const StopRequest& stop_;
+    std::uint32_t count_ = 0;
+};
+
 }  // namespace
 
 bool holds_snow_body(const Material& m)
@@ -57,6 +76,7 @@ bool holds_snow_body(const Material& m)
 SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
 {
     SnowCaps caps;
+    Stops stops(options.stop);
     detail::Ground ground = detail::ground_of(tracer.triangles().scene(), options);
     if (ground.primitives.empty()) return caps;
     SubdivideOptions coarse;
@@ -67,6 +87,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     coarse.most_triangles = own + options.most_triangles / 4;
     float scale = 1.0f;
     coarse.too_long = [&](const vec3& a, const vec3& b) {
+        stops.ask_sometimes();
         const float length = glm::distance(a, b);
         const float away = std::max(detail::nearest_eye_m(options, 0.5f * (a + b)) - length, 0.0f);
         return length > scale * std::max(kCoarse_m, away * 0.08f);
@@ -76,6 +97,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         scale *= kCoarser;
         mesh = subdivide(ground.primitives, coarse);
     }
+    stops.ask();
     detail::leave_out_ledges(mesh, tracer, detail::Keeper(ground));
     detail::SkySeen seen;
     detail::look_up(mesh, tracer, seen);
@@ -83,6 +105,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     // Finer where a shelter ends: at the foot of what stands on large triangles.
     std::vector<std::vector<std::uint32_t>> first_cut = std::move(mesh.origins);
     for (int round = 0; round < kRounds; ++round) {
+        stops.ask();
         SubdivideOptions at_shelters = coarse;
         at_shelters.most_levels = 1;
         at_shelters.most_triangles = own + options.most_triangles / 2;
@@ -100,6 +123,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         detail::leave_out_hidden(mesh, detail::Keeper(ground));
         first_cut = std::move(mesh.origins);
     }
+    stops.ask();
     detail::Borders borders = detail::borders_of(mesh, tracer);
     EdgeGrid edges(std::move(borders.open));
     const EdgeGrid slots(std::move(borders.slots));
@@ -112,6 +136,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     fine.most_triangles = own + options.most_triangles;
     const std::vector<Primitive> looked = std::move(mesh.primitives);
     fine.too_long = [&](const vec3& a, const vec3& b) {
+        stops.ask_sometimes();
         const vec3 middle = 0.5f * (a + b);
         const float away = detail::nearest_eye_m(options, middle);
         const float least = std::max(caps.finest_m, away * options.per_metre);
@@ -145,17 +170,20 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     detail::fill_shares(caps, mesh, normals, options);
     detail::find_beyond(edges.edges(), caps);
     detail::find_beyond(low.edges(), caps);
+    stops.ask();
     detail::fill_points(caps, mesh, {edges, slots, closed, low}, normals);
     detail::find_supports(caps, mesh);
     const std::vector<detail::Joint> joints = detail::joints_of(caps);
     detail::hold_by_repose(caps, mesh, normals, joints);
     detail::narrow_bridges(caps, joints);
+    stops.ask();
     const detail::Sheet sheet = detail::fill_relief(caps, mesh, joints, tracer, options);
     std::vector<detail::BankPart> banks = detail::lay_banks(caps, mesh, sheet, edges.edges(), options);
     detail::tread(caps, options);
     detail::add_parts(caps, mesh, ground, first_cut);
     detail::add_banks(caps, mesh, ground, banks);
     detail::leave_out_unused(caps);
+    stops.ask();
     caps.levels = build_snow_levels(caps, options.eyes_m);
     return caps;
 }

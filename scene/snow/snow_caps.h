@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/interrupted.h"
 #include "scene/patches/tracer.h"
 #include "scene/scene.h"
 #include "scene/snow/snow_levels.h"
@@ -23,6 +24,7 @@ struct SnowCapOptions {
     /// Share of the depth that is trodden away at a place; none: nowhere.
     std::function<float(const glm::vec3&)> pressed = {};
     std::size_t most_triangles = 120'000;  ///< more than what faces up has by itself
+    StopRequest stop = {};                 ///< asked several times a second
 };
 
 /// A cover over all that faces up and is open to the sky, ready to be lifted by the depth of the snow.
@@ -82,7 +84,7 @@ struct SnowCaps {
 /// where a wall rises or other ground goes on. Over slots of up to 14 cm, as of a grating, deep snow closes.
 ///
 /// The same caps for any thread count. They reach over primitives and meshes: places that are shared
-/// are one point, so there are no cracks.
+/// are one point, so there are no cracks. Throws Interrupted when `stop` says so.
 SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options);
 
 /// Whether snow on a material has a body.

@@ -37,7 +37,7 @@ TEST(SnowScene, IsFoundAgainBitForBit)
     scene::Scene scene = tiny_scene();
     std::vector<std::string> notes;
     const auto bytes_of = [&](const ContentCache& from, const gpu::TrackMap& tracks) {
-        return scene::snow_caps_to_bytes(*prepare_snow(scene, {{0, 2, 4}}, tracks, from, notes));
+        return scene::snow_caps_to_bytes(*prepare_snow(scene, {{0, 2, 4}}, tracks, from, {}, notes));
     };
     const auto cold = bytes_of(cache, {});
     ASSERT_GT(cold.size(), 1000u);

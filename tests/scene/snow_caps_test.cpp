@@ -37,6 +37,25 @@ TEST(SnowCaps, LieOnWhatFacesUpAndSeesTheSky)
     EXPECT_TRUE(caps_of(sheltered).empty());
 }
 
+TEST(SnowCaps, AreGivenUpAtEveryAsking)
+{
+    const Scene scene = yard();
+    const Triangles triangles(scene, {});
+    const Tracer tracer(triangles);
+    int asked = 0;
+    SnowCapOptions options;
+    options.stop = [&] { return ++asked < 0; };
+    const SnowCaps whole = build_snow_caps(tracer, options);
+    ASSERT_GE(asked, 8);
+    EXPECT_FALSE(whole.empty());
+    const int all = asked;
+    for (int at = 1; at <= all; ++at) {
+        asked = 0;
+        options.stop = [&] { return ++asked == at; };
+        EXPECT_THROW(build_snow_caps(tracer, options), Interrupted) << at;
+    }
+}
+
 TEST(SnowCaps, SteepGroundHoldsLess)
 {
     const auto share_on = [](float degrees) {
