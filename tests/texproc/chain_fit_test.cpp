@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "texproc/prefilter/detail/chain_fit_kernel.h"
+#include "texproc/prefilter/detail/fit_pixels.h"
 #include "texproc/prefilter/picture.h"
 #include "texproc/study/fresh_maps.h"
 
@@ -412,6 +413,25 @@ TEST(ChainFitRule, MetalIsFittedToTheMeanAndThenToTheWorst)
     options.surface = SurfaceClass::Paint;
     Prefiltered paint = start;
     EXPECT_TRUE(fit_chain(bench.levels(), options, paint, [] { FAIL() << "paint is fitted once"; }));
+}
+
+// Most of a floor is seen from low above it. One lobe, and metal, are fitted to all heights alike.
+TEST(FitPixels, TwoLobesOnPaintAreSeenFromLowMoreOften)
+{
+    const ScoredMaps maps = cloth(48);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pixels());
+    const auto low = [&](SurfaceClass surface, int lobes) {
+        const PrefilterOptions options{.rule = "picture", .surface = surface, .lobes = lobes};
+        const std::size_t enough = 400 * fit_layout(surface).pixels();
+        const FitPool pool = draw_fit_pixels(bench.levels(), options, 1, 1, enough);
+        EXPECT_EQ(pool.pixels.size(), pool.views.size() * fit_layout(surface).pixels());
+        double count = 0.0;
+        for (const FitView& view : pool.views) count += view.lights.eye[2] < std::sin(25.0f * 0.0174533f);
+        return count / static_cast<double>(pool.views.size());
+    };
+    EXPECT_NEAR(low(SurfaceClass::Paint, 2), std::sqrt(16.0 / 51.0), 0.07);
+    EXPECT_NEAR(low(SurfaceClass::Paint, 1), 16.0 / 51.0, 0.07);
+    EXPECT_NEAR(low(SurfaceClass::Metal, 2), 16.0 / 51.0, 0.07);
 }
 
 // Tiles of two glosses, which no single lobe of a texel looks like.

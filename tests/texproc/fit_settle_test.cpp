@@ -124,11 +124,11 @@ struct TwoLobes {
 // A fit gains in one light what it loses in another, which pictures of other views and lights tell.
 TEST(FitSettle, PicturesOfTheGuardDoNotPayForOthers)
 {
-    const TwoLobes lacquer("lacquer");
-    const PictureBench guard(lacquer.bench, guard_pictures(SurfaceClass::Paint));
-    EXPECT_GT(worst(guard, lacquer.fitted), 0.08) << "or this shows nothing";
-    EXPECT_LT(worst(guard, lacquer.kept), 0.5 * worst(guard, lacquer.fitted));
-    EXPECT_LT(mean(lacquer.bench, lacquer.kept), 0.8 * mean(lacquer.bench, lacquer.fitted));
+    const TwoLobes sheet("corrugated");
+    const PictureBench guard(sheet.bench, guard_pictures(SurfaceClass::Paint));
+    EXPECT_GT(worst(guard, sheet.fitted), 0.4) << "or this shows nothing";
+    EXPECT_LT(worst(guard, sheet.kept), 0.5 * worst(guard, sheet.fitted));
+    EXPECT_LT(mean(sheet.bench, sheet.kept), 0.8 * mean(sheet.bench, sheet.fitted));
 }
 
 // A wide second lobe shines where what is diffuse already does, so the base colour is fitted with it.

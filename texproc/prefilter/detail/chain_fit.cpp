@@ -4,14 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/portable_math.h"
 #include "texproc/prefilter/detail/chain_fit_kernel.h"
+#include "texproc/prefilter/detail/fit_lights.h"
+#include "texproc/prefilter/detail/fit_pixels.h"
 #include "texproc/prefilter/detail/two_lobe_start.h"
 
 namespace petrichor::texproc::detail {
@@ -22,17 +22,6 @@ constexpr std::size_t kMostTexels = 256 * 256;
 constexpr int kLeastSide = 8;
 // Of a level: pixels drawn for each texel, of one lobe and of two, steps of a pass.
 constexpr std::size_t kPixelsPerTexel = 30, kPixelsOfTwo = 60, kSteps = 250;
-// How the pixels lie. Views that are one picture have one exposure, so what counts of its error is where
-// a highlight lies in it; wide, tall: how far they look past its middle, degrees.
-struct Layout {
-    std::size_t views;        // of a picture
-    int places;               // of a view, each seen kFitFrames times
-    std::size_t least_views;  // of a level
-    float wide = 0.0f, tall = 0.0f;
-};
-constexpr Layout kOneView{1, 256, 120}, kManyViews{16, 32, 3200, 17.0f, 6.0f};
-constexpr float kLowest = 7.0f;  // degrees down, where a picture looks
-constexpr int kSamples = 5;        // of the truth, along each side of a pixel
 constexpr std::size_t kSlots = 4;  // slopes are summed apart: the sums do not depend on threads
 // Two fits in turn, the second from the first: bold, then careful, in which a picture that is worse
 // than that of plain mips counts more, in full where it is worse by kClearlyWorse.
@@ -50,129 +39,7 @@ constexpr float kKeep = 0.9f, kKeepSquare = 0.99f;  // of Adam (Kingma & Ba 2015
 constexpr float kNothing2 = 3e-6f;                  // a mean square of errors that nobody sees
 constexpr float kWorseMetal = 2.0f;
 constexpr float kLeastLobe = 0.02f;  // the share of a lobe stays above: what has no part finds no way back
-constexpr float kDegree = 0.0174532925f, kTurn = 6.28318531f;
 
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : state_(seed) {}
-    std::uint32_t whole()  // SplitMix64
-    {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15ull;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-        return static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32);
-    }
-    float operator()(float low, float high)
-    {
-        return low + (high - low) * static_cast<float>(whole() >> 8) * (1.0f / 16777216.0f);
-    }
-    float gaussian()
-    {
-        const float radius = std::sqrt(-2.0f * portable_log((*this)(1e-7f, 1.0f)));
-        return radius * portable_cos((*this)(0.0f, kTurn));
-    }
-
-private:
-    std::uint64_t state_;
-};
-
-glm::vec3 direction(float azimuth, float height)
-{
-    const float flat = portable_cos(height);
-    return {portable_cos(azimuth) * flat, portable_sin(azimuth) * flat, portable_sin(height)};
-}
-
-// What a light of a view is drawn from (docs/textures.md, 7): the stated distribution of lights.
-enum class Around { Ahead, High, Beside, Behind, Anywhere, Window, Sky };
-void draw_light(Dice& dice, Around around, bool metal, float azimuth, const glm::vec3& eye,
-                std::size_t i, FitLights& to)
-{
-    float low = 20.0f, high = 65.0f, turned = 0.0f;
-    constexpr float kAhead = 0.45f;  // radians, of a Gaussian: highlights are ahead, so most are
-    if (around == Around::Beside) {
-        const float side = dice(-1.0f, 1.0f) < 0.0f ? -1.0f : 1.0f;
-        turned = side * dice(0.6f, 1.8f);
-    } else if (around == Around::Behind) {
-        turned = 0.5f * kTurn + dice(-1.0f, 1.0f);
-    } else if (around == Around::Anywhere) {
-        turned = dice(0.0f, kTurn);
-    } else {
-        turned = kAhead * dice.gaussian();
-        low = around == Around::High ? 30.0f : 12.0f;
-        high = around == Around::High ? 70.0f : 45.0f;
-    }
-    const glm::vec3 l = direction(azimuth + turned, kDegree * dice(low, high));
-    const glm::vec3 h = glm::normalize(l + eye);
-    to.lx[i] = l.x, to.ly[i] = l.y, to.lz[i] = l.z;
-    to.hx[i] = h.x, to.hy[i] = h.y, to.hz[i] = h.z;
-    const float m = 1.0f - std::clamp(glm::dot(l, h), 0.0f, 1.0f), m2 = m * m, rim = m2 * m2 * m;
-    const float sun = around == Around::Sky ? 0.0f : 1.0f;
-    const float paint = kPaintF0 + (1.0f - kPaintF0) * rim;
-    to.fresnel[i] = sun * (metal ? rim : paint);
-    to.fresnel_metal[i] = metal ? sun * kMetalF0 * (1.0f - rim) : 0.0f;
-    to.albedo[i] = metal ? 0.0f : sun * (1.0f - paint) * kPaintAlbedo * (1.0f / shared::kPi);
-    const float window = dice(0.08f, 0.14f);
-    to.alpha2[i] = around == Around::Window ? window * window : 0.0f;
-    // Beside half of the suns the sky gives a tenth to a third of the light; beside all that metal is
-    // not ahead of, since it would be black without.
-    const bool needs_sky =
-        metal && (around == Around::Beside || around == Around::Behind || around == Around::Anywhere);
-    const bool has_sky = needs_sky || dice(0.0f, 1.0f) < 0.5f;
-    const float beside = has_sky ? dice(0.05f, 0.2f) : 0.0f;
-    to.sky[i] = around == Around::Sky ? 1.0f : around == Around::Window ? 0.0f : beside;
-    to.f0[i] = metal ? 0.0f : kPaintF0;
-    to.f0_metal[i] = metal ? kMetalF0 : 0.0f;
-    to.sky_albedo[i] = metal ? 0.0f : kPaintAlbedo * (1.0f - kPaintF0);
-}
-
-// The eight of a view; of both classes, five on paint and three on metal.
-void draw_lights(Dice& dice, SurfaceClass surface, float azimuth, const glm::vec3& eye, FitLights& to)
-{
-    using enum Around;
-    for (int c = 0; c < 3; ++c) to.eye[c] = eye[c];
-    std::size_t number = 0;
-    const auto add = [&](bool metal, std::initializer_list<Around> one_of) {
-        const Around around = *(one_of.begin() + dice.whole() % one_of.size());
-        draw_light(dice, around, metal, azimuth, eye, number++, to);
-    };
-    if (surface == SurfaceClass::Both) {
-        add(false, {Ahead});
-        add(false, {Ahead, High});
-        add(false, {Beside});
-        add(false, {Behind});
-        add(false, {Window, Window, Sky, Anywhere});
-        add(true, {Ahead});
-        add(true, {Ahead, High, Beside, Sky});
-        add(true, {Beside, Behind, Behind, Anywhere});
-        return;
-    }
-    const bool metal = surface == SurfaceClass::Metal;
-    for (const Around around : {Ahead, Ahead, High, Beside, Behind, Window}) add(metal, {around});
-    add(metal, {Anywhere, Ahead});
-    add(metal, {Sky, Behind});
-}
-
-// Of one eye: how its pixels lie in texels of level 0.
-struct Footprint {
-    glm::vec2 across, along;  // the shorter and the longer axis
-};
-
-// Views of one picture, and the errors of plain mips in it: mean squares, and of what changes.
-struct Errors {
-    std::array<float, kFitLights> squares{}, changes{};
-};
-struct Picture {
-    std::vector<std::size_t> views;
-    Errors plain;
-};
-
-// Pixels whose finer level is the same.
-struct Pool {
-    std::size_t fine = 0;
-    std::vector<FitView> views;
-    std::vector<FitPixel> pixels;  // view by view
-    std::vector<Picture> pictures;
-};
 class ChainFit {
 public:
     ChainFit(const Levels& plain, const PrefilterOptions& options, const Prefiltered& chain);
@@ -194,24 +61,20 @@ private:
     }
     void start_two(std::size_t k);
     void move_second(std::size_t k, std::size_t i, std::size_t slot_offset, const auto& moved);
-    void draw(Pool& pool, std::size_t number);
-    void show(const Footprint& footprint, FitView& view, FitPixel* pixels, Dice& dice,
-              float* light) const;
-    bool expose(Pool& pool, Picture& picture, const std::vector<float>& light) const;
-    Errors errors(const Pool& pool, const Picture& picture, bool plain) const;
-    void weigh(Pool& pool, const Picture& picture, float worse) const;
-    void step(const Pool& pool, const std::vector<std::size_t>& views, float rate);
+    void draw();
+    FitErrors errors(const FitPool& pool, const FitPicture& picture, bool plain) const;
+    void weigh(FitPool& pool, const FitPicture& picture, float worse) const;
+    void step(const FitPool& pool, const std::vector<std::size_t>& views, float rate);
     void move(std::size_t k, std::size_t slot_offset, std::size_t pixels, float rate);
 
     const Levels& plain_;
     const PrefilterOptions& options_;
-    const Layout layout_;
     const std::size_t pixels_;  // of a view
     FitMeaning meaning_;
     std::vector<std::vector<FitTexel>> texels_, plain_texels_;
     std::vector<std::vector<FitLobe>> second_;  // with two lobes
     std::size_t first_ = 1, last_ = 0;  // levels that are fitted
-    std::vector<Pool> pools_;
+    std::vector<FitPool> pools_;
     bool seen_ = false;  // plain mips are off somewhere
     const bool colors_metal_, colors_paint_;
     // Of Adam: means of slopes and of their squares, and steps, of a level.
@@ -226,8 +89,7 @@ private:
 ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const Prefiltered& chain)
     : plain_(plain),
       options_(options),
-      layout_(options.surface == SurfaceClass::Metal ? kManyViews : kOneView),
-      pixels_(static_cast<std::size_t>(layout_.places) * kFitFrames),
+      pixels_(fit_layout(options.surface).pixels()),
       meaning_{options.smoothness, options.alpha},
       texels_(plain.size()),
       plain_texels_(plain.size()),
@@ -265,8 +127,7 @@ ChainFit::ChainFit(const Levels& plain, const PrefilterOptions& options, const P
         square_[k].resize(k ? count(k) : 0);
         if (two()) start_two(k);
     }
-    pools_.resize(last_ - first_ + 2);
-    for (std::size_t i = 0; i < pools_.size(); ++i) draw(pools_[i], i);
+    draw();
 }
 
 // From two that are the same no slope would lead them apart. Levels that are not fitted keep such.
@@ -291,120 +152,30 @@ void ChainFit::start_two(std::size_t k)
     }
 }
 
-void ChainFit::draw(Pool& pool, std::size_t number)
+// A pool for each pair of levels of which one is fitted.
+void ChainFit::draw()
 {
-    pool.fine = first_ - 1 + number;
-    // As many as the finest fitted level of the two has texels.
-    const Level& size = plain_[std::max(pool.fine, first_)];
-    const std::size_t texels =
-        static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    const std::size_t share = pool.fine < first_ ? 2 : 1;
-    const std::size_t enough =
-        std::max(texels * (two() ? kPixelsOfTwo : kPixelsPerTexel) / (share * pixels_), layout_.least_views);
-    pool.pictures.resize(enough / layout_.views);
-    pool.views.resize(pool.pictures.size() * layout_.views);
-    pool.pixels.resize(pool.views.size() * pixels_);
-    std::vector<char> off(pool.pictures.size(), 0);
-    parallel_for(pool.pictures.size(), options_.threads, [&](std::size_t which) {
-        Picture& picture = pool.pictures[which];
-        Dice dice((static_cast<std::uint64_t>(number) << 32) + which);
-        const float middle = dice(0.0f, kTurn), middle_down = dice(9.0f, 60.0f);
-        const Dice of_lights = dice;  // the same for all its views
-        FitLights past{};
-        draw_lights(dice, options_.surface, middle, {}, past);
-        constexpr float kOneTap = 0.15f;
-        const bool one_tap = dice(0.0f, 1.0f) < kOneTap;
-        std::vector<float> light(layout_.views * pixels_ * kFitLights);
-        for (std::size_t i = 0; i < layout_.views; ++i) {
-            // Far apart: a step of the fit takes views that follow each other.
-            const std::size_t v = which + i * pool.pictures.size();
-            picture.views.push_back(v);
-            FitView& view = pool.views[v];
-            float azimuth = middle, down = middle_down;
-            if (layout_.views > 1) {
-                azimuth += kDegree * dice(-layout_.wide, layout_.wide);
-                down = std::max(down + dice(-layout_.tall, layout_.tall), kLowest);
-            }
-            down *= kDegree;
-            const glm::vec2 ahead(portable_cos(azimuth), portable_sin(azimuth));
-            const glm::vec3 eye(-ahead * portable_cos(down), portable_sin(down));
-            Dice lights = of_lights;
-            draw_lights(lights, options_.surface, middle, eye, view.lights);
-            const float longer = 1.0f / portable_sin(down);  // than across
-            view.taps = one_tap ? 1 : static_cast<int>(std::ceil(longer));
-            view.share = dice(0.0f, 1.0f);
-            const float across =
-                std::ldexp(portable_exp(view.share * 0.693147181f), static_cast<int>(pool.fine)) *
-                static_cast<float>(view.taps) / longer;
-            show({glm::vec2(-ahead.y, ahead.x) * across, ahead * (across * longer)}, view,
-                 &pool.pixels[v * pixels_], dice, &light[i * pixels_ * kFitLights]);
-        }
-        off[which] = expose(pool, picture, light);
-        weigh(pool, picture, 0.0f);
-    });
-    seen_ |= std::find(off.begin(), off.end(), 1) != off.end();
-}
-
-// Truth of the pixels of a view.
-void ChainFit::show(const Footprint& footprint, FitView& view, FitPixel* pixels, Dice& dice,
-                    float* light) const
-{
-    const Level& base = plain_.front();
-    const glm::vec2 size(base.width, base.height);
-    const glm::vec2 tap = footprint.along / (size * static_cast<float>(view.taps));
-    view.step_u = tap.x, view.step_v = tap.y;
-    constexpr int kCount = kSamples * kSamples;
-    std::array<float, kCount> nx, ny, nz, p;
-    for (int place = 0; place < layout_.places; ++place) {
-        glm::vec2 at(dice(0.0f, size.x), dice(0.0f, size.y));
-        const float angle = dice(0.0f, kTurn), far = dice(0.3f, 1.0f);
-        const glm::vec2 move =
-            far * (footprint.across * portable_cos(angle) + footprint.along * portable_sin(angle));
-        for (std::size_t f = 0; f < kFitFrames; ++f, at += move) {
-            const std::size_t i = static_cast<std::size_t>(place) * kFitFrames + f;
-            const glm::vec2 uv = at / size;
-            pixels[i].u = uv.x - std::floor(uv.x), pixels[i].v = uv.y - std::floor(uv.y);
-            for (int s = 0; s < kCount; ++s) {
-                const float a =
-                    (static_cast<float>(s % kSamples) + dice(0.0f, 1.0f)) / kSamples - 0.5f;
-                const float b =
-                    (static_cast<float>(s / kSamples) + dice(0.0f, 1.0f)) / kSamples - 0.5f;
-                const glm::vec2 q = (at + a * footprint.across + b * footprint.along) / size;
-                const Texel t = base.nearest(static_cast<double>(q.x), static_cast<double>(q.y));
-                const std::size_t k = static_cast<std::size_t>(s);
-                nx[k] = t.n.x, ny[k] = t.n.y, nz[k] = t.n.z;
-                p[k] = perceptual(t.stored, options_);
-            }
-            chain_fit_kernel().mean_light(view.lights, nx.data(), ny.data(), nz.data(), p.data(),
-                                          kCount, light + i * kFitLights);
-        }
+    for (std::size_t number = 0; number < last_ - first_ + 2; ++number) {
+        const std::size_t fine = first_ - 1 + number;
+        // As many as the finest fitted level of the two has texels.
+        const Level& size = plain_[std::max(fine, first_)];
+        const std::size_t texels =
+            static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+        const std::size_t enough = texels * (two() ? kPixelsOfTwo : kPixelsPerTexel) / (fine < first_ ? 2 : 1);
+        FitPool& pool = pools_.emplace_back(draw_fit_pixels(plain_, options_, number, fine, enough));
+        std::vector<char> off(pool.pictures.size(), 0);
+        parallel_for(pool.pictures.size(), options_.threads, [&](std::size_t which) {
+            FitPicture& picture = pool.pictures[which];
+            picture.plain = errors(pool, picture, true);
+            off[which] = std::any_of(picture.plain.squares.begin(), picture.plain.squares.end(),
+                                     [](float squares) { return squares > 2.0f * kNothing2; });
+            weigh(pool, picture, 0.0f);
+        });
+        seen_ |= std::find(off.begin(), off.end(), 1) != off.end();
     }
 }
 
-// Exposures of a picture, and what it shows then; whether plain mips are off.
-bool ChainFit::expose(Pool& pool, Picture& picture, const std::vector<float>& light) const
-{
-    std::vector<float> sorted(light.size() / kFitLights);
-    for (std::size_t l = 0; l < kFitLights; ++l) {
-        for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = light[i * kFitLights + l];
-        std::sort(sorted.begin(), sorted.end());
-        const float middle = std::max(sorted[sorted.size() / 2], 1e-6f);
-        const float bright = std::max(sorted[sorted.size() * 97 / 100], 1e-6f);
-        const float exposure = std::min(0.18f / middle, 0.9f / bright);
-        for (std::size_t i = 0; i < sorted.size(); ++i) {
-            const std::size_t v = picture.views[i / pixels_];
-            pool.views[v].exposure[l] = exposure;
-            const float shown = std::sqrt(std::min(light[i * kFitLights + l] * exposure, 1.0f));
-            pool.pixels[v * pixels_ + i % pixels_].shown[l] =
-                static_cast<std::uint16_t>(shown * 65535.0f + 0.5f);
-        }
-    }
-    picture.plain = errors(pool, picture, true);
-    return std::any_of(picture.plain.squares.begin(), picture.plain.squares.end(),
-                       [](float squares) { return squares > 2.0f * kNothing2; });
-}
-
-Errors ChainFit::errors(const Pool& pool, const Picture& picture, bool plain) const
+FitErrors ChainFit::errors(const FitPool& pool, const FitPicture& picture, bool plain) const
 {
     const auto at = [&](std::size_t k) {
         return plain ? FitLevel{plain_[k].width, plain_[k].height, plain_texels_[k].data(), nullptr}
@@ -412,7 +183,7 @@ Errors ChainFit::errors(const Pool& pool, const Picture& picture, bool plain) co
     };
     const FitLevel fine = at(pool.fine), coarse = at(std::min(pool.fine + 1, plain_.size() - 1));
     std::vector<float> light(pixels_ * kFitLights);
-    Errors sums;
+    FitErrors sums;
     for (const std::size_t v : picture.views) {
         const FitPixel* pixels = &pool.pixels[v * pixels_];
         chain_fit_kernel().seen(pool.views[v], meaning_, fine, coarse, pixels,
@@ -437,12 +208,12 @@ Errors ChainFit::errors(const Pool& pool, const Picture& picture, bool plain) co
     return sums;
 }
 
-// Errors count relative to those of plain mips: the slope of their ratio, not of its square, so
+// FitErrors count relative to those of plain mips: the slope of their ratio, not of its square, so
 // that a light in which little is left to gain is not given up for one in which much is lost.
 // worse: how much more a picture counts that is worse than that of plain mips.
-void ChainFit::weigh(Pool& pool, const Picture& picture, float worse) const
+void ChainFit::weigh(FitPool& pool, const FitPicture& picture, float worse) const
 {
-    const Errors now = errors(pool, picture, false);
+    const FitErrors now = errors(pool, picture, false);
     for (std::size_t l = 0; l < kFitLights; ++l) {
         const float plain = picture.plain.squares[l], ratio = std::sqrt(now.squares[l] / plain);
         float weight = 1.0f / std::sqrt(plain * now.squares[l]);
@@ -530,7 +301,7 @@ void ChainFit::move_second(std::size_t k, std::size_t i, std::size_t slot_offset
     for (float& n_c : t.n) n_c /= length;
 }
 
-void ChainFit::step(const Pool& pool, const std::vector<std::size_t>& views, float rate)
+void ChainFit::step(const FitPool& pool, const std::vector<std::size_t>& views, float rate)
 {
     const std::size_t coarse = std::min(pool.fine + 1, plain_.size() - 1);
     const std::size_t offset = pool.fine < first_ ? 0 : texels_[pool.fine].size();
@@ -565,7 +336,7 @@ void ChainFit::fit(const Stage& stage)
         for (std::size_t v = 0; v < views; v += batch)
             steps.push_back({i, v, std::min(batch, views - v)});
     }
-    Dice dice(7);
+    FitDice dice(7);
     const auto shuffle = [&](auto& all) {
         for (std::size_t i = all.size(); i-- > 1;) std::swap(all[i], all[dice.whole() % (i + 1)]);
     };
@@ -573,7 +344,7 @@ void ChainFit::fit(const Stage& stage)
     const std::size_t total = steps.size() * stage.passes;
     for (std::size_t pass = 0, done = 0; pass < stage.passes; ++pass) {
         shuffle(steps);
-        for (Pool& pool : pools_) {
+        for (FitPool& pool : pools_) {
             // Weighed as it was drawn; where two lobes start, little is known of where they end.
             if (!(stage.worse > 0.0f) && (!two() || pass == 0)) break;
             parallel_for(pool.pictures.size(), options_.threads,

@@ -23,11 +23,14 @@ constexpr float kSecond[] = {1.0f, 0.75f, 0.5f};
 constexpr float kLeft[] = {1.0f, 0.5f, 0.0f};
 // Of all levels at once.
 constexpr float kAlike[] = {1.0f, 0.75f, 0.5f, 0.25f}, kLess[] = {0.75f, 0.5f}, kLeastMetal = 0.12f;
-constexpr int kMetalSweeps = 2;
+constexpr int kSweeps = 2;  // of metal and where there is a guard, else one
 constexpr double kClear = 1e-3;  // a smaller gain changes nothing
 // What the pictures of a guard count beside the others: a price of so much that it holds back what is
 // clearly worse, and not what is gained for it.
 constexpr double kGuard = 0.3;
+// And what a picture costs there that is worse than that of plain mips, its own or the guard's: half of what it
+// costs without a guard. Of so many hardly any fit has none, and what that holds back is more than it saves.
+constexpr double kWorseGuarded = 5.0;
 constexpr std::size_t kRoughness = 0, kMetal = 2, kSecondRoughness = 4, kSecondShare = 5;
 
 // Of a level.
@@ -79,15 +82,20 @@ public:
         looks_.emplace_back(bench);
         if (guard) looks_.emplace_back(*guard);
     }
-    double cost(const Prefiltered& chain, std::uint32_t changed)
+    /// changed: levels, a bit each. A cost that is not below `enough` may be less than it is: the guard can only
+    /// add to it, so its pictures are left for later.
+    double cost(const Prefiltered& chain, std::uint32_t changed, double enough)
     {
-        for (Look& look : looks_)
-            if (changed || look.scores.empty()) look.scores = look.retake.score(chain, changed);
-        double cost = cost_of(looks_.front().scores, looks_.front().plain);
-        if (looks_.size() > 1)
-            cost += kGuard * penalty_of(looks_.back().scores, looks_.back().plain) /
-                    static_cast<double>(looks_.back().scores.size());
-        return cost;
+        for (Look& look : looks_) look.changed |= changed;
+        const bool guarded = looks_.size() > 1;
+        const Look& own = looks_.front();
+        look(looks_.front(), chain);
+        const double cost = cost_of(own.scores, own.plain, guarded ? kWorseGuarded : kWorse);
+        if (!guarded || !(cost < enough)) return cost;
+        const Look& guard = looks_.back();
+        look(looks_.back(), chain);
+        return cost + kGuard * penalty_of(guard.scores, guard.plain, kWorseGuarded) /
+                          static_cast<double>(guard.scores.size());
     }
 
 private:
@@ -98,7 +106,13 @@ private:
         }
         std::vector<PictureScore> plain, scores{};
         PictureBench::Retake retake;
+        std::uint32_t changed = 0;  // since it looked last
     };
+    static void look(Look& at, const Prefiltered& chain)
+    {
+        if (at.changed || at.scores.empty()) at.scores = at.retake.score(chain, at.changed);
+        at.changed = 0;
+    }
     std::vector<Look> looks_;
 };
 
@@ -121,28 +135,28 @@ public:
 
     void run()
     {
-        show(best_, best_cost_);
+        best_cost_ = judge_.cost(chain_, show(best_), INFINITY);
         alike();
         if (guarded_) together();
-        for (int sweep = 0; sweep < (metal_ ? kMetalSweeps : 1); ++sweep) {
+        for (int sweep = 0; sweep < (metal_ || guarded_ ? kSweeps : 1); ++sweep) {
             const double before = best_cost_;
             one_by_one();
             if (best_cost_ > before - kClear) break;
         }
-        double unused = 0.0;
-        show(best_, unused);
+        show(best_);
     }
 
 private:
     bool is_fitted(std::size_t k) const { return !fits_.before[k][kRoughness].empty(); }
 
-    void show(const std::vector<Kept>& levels, double& cost)
+    // Which levels of the chain that changes.
+    std::uint32_t show(const std::vector<Kept>& levels)
     {
         std::uint32_t changed = 0;
         for (std::size_t k = 1; k < now_.size(); ++k)
             if (is_fitted(k) && !(levels[k] == now_[k])) changed |= 1u << k, show(k, levels[k]);
         now_ = levels;
-        cost = judge_.cost(chain_, changed);
+        return changed;
     }
 
     void show(std::size_t k, const Kept& kept)
@@ -165,9 +179,8 @@ private:
 
     void attempt(const std::vector<Kept>& levels)
     {
-        double cost = 0.0;
-        show(levels, cost);
-        if (!(cost < best_cost_ - kClear)) return;
+        const double enough = best_cost_ - kClear, cost = judge_.cost(chain_, show(levels), enough);
+        if (!(cost < enough)) return;
         best_cost_ = cost;
         best_ = levels;
     }

@@ -22,20 +22,22 @@ inline double change_of(double error, double of_plain)
 }
 
 /// What pictures cost for being worse than those of plain mips: 0 where none is.
-inline double penalty_of(const std::vector<PictureScore>& scores, const std::vector<PictureScore>& plain)
+inline double penalty_of(const std::vector<PictureScore>& scores, const std::vector<PictureScore>& plain,
+                         double worse = kWorse)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < scores.size(); ++i)
-        sum += kWorse * std::max(change_of(scores[i].rmse, plain[i].rmse) - kWithin, 0.0) +
+        sum += worse * std::max(change_of(scores[i].rmse, plain[i].rmse) - kWithin, 0.0) +
                kWorseFlicker *
                    std::max(change_of(scores[i].flicker, plain[i].flicker) - kWithin, 0.0);
     return sum;
 }
 
 /// Mean of the pictures: 0 for plain mips, below it where they are better.
-inline double cost_of(const std::vector<PictureScore>& scores, const std::vector<PictureScore>& plain)
+inline double cost_of(const std::vector<PictureScore>& scores, const std::vector<PictureScore>& plain,
+                      double worse = kWorse)
 {
-    double sum = penalty_of(scores, plain);
+    double sum = penalty_of(scores, plain, worse);
     for (std::size_t i = 0; i < scores.size(); ++i)
         sum += change_of(scores[i].rmse, plain[i].rmse) +
                kFlickerWeight * change_of(scores[i].flicker, plain[i].flicker);
