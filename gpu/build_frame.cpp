@@ -120,8 +120,9 @@ void add_sky_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameRe
         }
     } else {
         shared::SkyParams params = sky_params(frame, sky);
-        // Without clouds, time and wind change nothing.
+        // Without clouds, time, wind and rain change nothing.
         if (params.cloud_cover <= 0.0f) {
+            params.rain = 0.0f;
             params.time_s = 0.0f;
             params.wind_m_s = glm::vec2(0.0f);
         }

@@ -585,7 +585,7 @@ MeterReading Renderer::meter(const Frame& frame, MeterOf what)
     const bool computed = !impl_->environment && frame.sky.analytic_sun;
     const std::vector<float>& snow = result.aovs.front().pixels;
     MeterReading reading;
-    reading.ev100 = metered_ev100(result.beauty, snow, computed ? frame.sky.cloud_cover : 1.0f);
+    reading.ev100 = metered_ev100(result.beauty, snow, computed ? frame.sky.cloud_cover : 1.0f, frame.weather.rain);
     if (what == MeterOf::ExposureAndLight) {
         reading.light = metered_light({.scattered_direct = result.aovs[2].pixels,
                                        .scattered_indirect = result.aovs[3].pixels,

@@ -53,6 +53,15 @@ void set_si(shared::WeatherMoment& m, const ArtistState& state)
     m.swe_kg_m2 = narrow(depth_m * kFreshSnow_kg_m3);
 }
 
+// While states are set by hand the model passes all rainfall on as rain and as snow, as its original does. Here it falls as one of
+// them: as ice as far as what lies is set to, and none of it through air above 3 C.
+ArtistState falling_by_hand(ArtistState state, double rainfall, double temperature_c)
+{
+    state.snowfall = rainfall * saturate(state.water_to_snow) * std::clamp(0.5 * (3.0 - temperature_c), 0.0, 1.0);
+    state.rain = rainfall - state.snowfall;
+    return state;
+}
+
 }  // namespace
 
 double frost_at(const Timeline& timeline, double time_s, double time_scale)
@@ -98,9 +107,11 @@ Moment artist_moment(const ArtistTimeline& weather, const Timeline& timeline,
                      const SkyChannels& sky, double time_s)
 {
     const TimeUs time = to_time_us(time_s);
-    const ArtistState state = weather.state_at(time);
     const ArtistOutputs published = weather.outputs_at(time);
     const ArtistParams params = weather.params_at(time);
+    const ArtistState state = params.script_controlled
+                                  ? weather.state_at(time)
+                                  : falling_by_hand(weather.state_at(time), rainfall(timeline, time_s), published.temperature_c);
     const auto now = [&](const Channel& channel) {
         return value_at(channel, static_cast<double>(time));
     };

@@ -68,6 +68,15 @@ SHARED_FN float fog_beyond_haze(float per_m)
     return max(per_m - 3.912f / 20000.0f, 0.0f);
 }
 
+// What fog that is lit from above sends in a direction with the cosine `up` to the vertical, over an even sky's light on the
+// ground / pi: along the ground half of what it scatters comes from the sky (0.86 in the mean of all directions of an
+// overcast one) and half from the land; upwards it is as much brighter as leaves three quarters of that light on the ground.
+SHARED_FN float fog_from_above(float up, float land_albedo)
+{
+    const float level = 0.43f + 0.5f * land_albedo;
+    return level + 1.5f * (0.75f - level) * max(up, 0.0f);
+}
+
 // Forward scattering by droplets: Henyey and Greenstein 1941 with g = 0.8, 1/sr.
 SHARED_FN float fog_phase(float cosine)
 {

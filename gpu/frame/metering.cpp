@@ -22,6 +22,7 @@ constexpr float kSnowStops = 1.3f, kSnowFieldStops = 0.7f;  // by eye
 constexpr float kDayEv100 = 10.0f, kNightEv100 = 4.0f;
 constexpr float kClear = 0.3f, kOvercast = 0.9f;
 constexpr float kInTheSun = 0.4f;  // of flat_stops() that is left under a clear sky; by eye
+constexpr float kStormStops = 0.7f;  // by eye
 
 // 2^(k/8) / 2: where a mantissa of 0.5..1 passes into the next eighth of a stop.
 constexpr std::array<float, kStepsAStop> kEighths{0.5f,         0.545253866f, 0.594603558f,
@@ -73,7 +74,7 @@ Frame metering_frame(const Frame& frame, MeterOf what)
 }
 
 std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
-                                   std::span<const float> snow, float cloud)
+                                   std::span<const float> snow, float cloud, float rain)
 {
     std::array<std::uint64_t, kStops * kStepsAStop> counts{};
     std::uint64_t total = 0;
@@ -116,7 +117,8 @@ std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
     const float grey =
         kInTheSun + (1.0f - kInTheSun) * std::clamp((cloud - kClear) / (kOvercast - kClear), 0.0f, 1.0f);
     const float snow_stops = (kSnowStops + kSnowFieldStops * share) * share;
-    return ev100 - (snow_stops + grey * shared::flat_stops(static_cast<float>(above))) * day;
+    const float storm_stops = kStormStops * std::clamp(rain, 0.0f, 1.0f) * (grey - kInTheSun) / (1.0f - kInTheSun);
+    return ev100 + (storm_stops - snow_stops - grey * shared::flat_stops(static_cast<float>(above))) * day;
 }
 
 std::optional<glm::vec3> metered_light(const MeteredSurfaces& surfaces)

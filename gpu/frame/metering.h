@@ -45,8 +45,11 @@ std::vector<std::string> metering_aovs(MeterOf what);
 ///   snow  0..1 of each pixel, none: no snow. A meter takes white for grey; as a photographer adds a stop or two for a
 ///         snow field, what is metered falls by (1.3 + 0.7 s) s stops for a share s of snow, by day, too.
 ///   cloud  0..1 of the sky
+///   rain   0..1. Under a closed layer that rains by day what is metered rises by 0.7 stops for the heaviest: a storm is dark, and
+///          its clouds stay below white.
 std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
-                                   std::span<const float> snow = {}, float cloud = 1.0f);
+                                   std::span<const float> snow = {}, float cloud = 1.0f,
+                                   float rain = 0.0f);
 
 /// What metered_light() takes of a picture: three numbers a pixel each, and one of snow.
 struct MeteredSurfaces {

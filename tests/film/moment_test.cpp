@@ -43,6 +43,25 @@ TEST(WeatherMoment, PublishesTheStateOfTheModel)
     EXPECT_FLOAT_EQ(moment_of(script, weather, 1.0).values.snow_height_blend_m, 10.0f);
 }
 
+// Rain of 9 C is no snow because states are set by hand.
+TEST(WeatherMoment, WhatFallsWhileStatesAreSetByHandFallsOnce)
+{
+    struct Case {
+        const char* keys;
+        float rain, snowfall;
+    };
+    for (const Case& c : {Case{"temperature_c = 9, rainfall = 0.8", 0.8f, 0.0f}, Case{"temperature_c = 9, rainfall = 0.8, water_to_snow = 1", 0.8f, 0.0f},
+                          Case{"temperature_c = 2, rainfall = 0.8, water_to_snow = 1", 0.4f, 0.4f},
+                          Case{"temperature_c = -2, rainfall = 0.8, water_to_snow = 1", 0.0f, 0.8f}, Case{"temperature_c = -2, rainfall = 0.8, water_to_snow = 0", 0.8f, 0.0f}}) {
+        const WeatherScript script = script_of(std::string("{ time_s = 0, script_controlled = 0, ") + c.keys + " }");
+        const auto m = moment_of(script, script.solve(), 1.0).values;
+        EXPECT_FLOAT_EQ(m.rain, c.rain) << c.keys;
+        EXPECT_FLOAT_EQ(m.snowfall, c.snowfall) << c.keys;
+        EXPECT_NEAR(m.snow_fraction, c.snowfall / 0.8f, 1e-6f) << c.keys;
+        EXPECT_NEAR(m.visibility_m, weather::visibility_in_m(static_cast<double>(c.rain), static_cast<double>(c.snowfall)), 1.0) << c.keys;
+    }
+}
+
 TEST(Frost, GrowsInDryColdAndGoesInWarmth)
 {
     const WeatherScript dry = script_of(

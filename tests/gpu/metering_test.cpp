@@ -166,6 +166,20 @@ TEST(Metering, WhatIsFlatUnderAClearSkyIsHardlyExposedMore)
     }
 }
 
+// A storm by day is dark; a shower in the sun is not, nor is it darker by night.
+TEST(Metering, RainFromAClosedLayerIsExposedLess)
+{
+    for (const float nits : {1000.0f, 1.0f}) {
+        std::vector<std::uint16_t> picture;
+        add_pixels(picture, 1000, nits);
+        const float plain = *metered_ev100(picture, {}, 1.0f);
+        const float day = nits > 100.0f ? 1.0f : 0.0f;
+        EXPECT_NEAR(*metered_ev100(picture, {}, 1.0f, 1.0f), plain + 0.7f * day, 1e-5f);
+        EXPECT_NEAR(*metered_ev100(picture, {}, 1.0f, 0.5f), plain + 0.35f * day, 1e-5f);
+        EXPECT_EQ(*metered_ev100(picture, {}, 0.2f, 1.0f), *metered_ev100(picture, {}, 0.2f, 0.0f));
+    }
+}
+
 TEST(Metering, NothingToSeeIsNoNumber)
 {
     std::vector<std::uint16_t> black;

@@ -4,6 +4,7 @@
 
 #include "gpu/passes/sky/sky_light_io.h"
 #include "formulas/light/clouds.h"
+#include "formulas/light/rain_clouds.h"
 
 #define CLOUD_TEXEL_RAD 0.00409  // a quarter turn over 384 texels: of the cube that clouds are drawn into
 
@@ -31,6 +32,7 @@ struct CloudSeen {
     float depth;   // of cloud along the way, optical, about
     float sunward; // the same from there towards the sun
     float heavy;   // 0 the thinnest of the layer .. 1 the thickest
+    float hidden;  // by rags below a layer that rains
     float up;      // 0 at the base .. 1 at the top of the tallest
     float crease;  // 1 in creases between lumps of a heap .. 0 on them
 };
@@ -42,7 +44,7 @@ const vec2 kCloudLean = vec2(0.62, 0.34);
 
 CloudSeen cloud_seen(SkyParams sky, vec3 direction)
 {
-    CloudSeen seen = CloudSeen(0.0, 0.0, 0.0, 0.5, 0.0, 0.0);
+    CloudSeen seen = CloudSeen(0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0);
     const float reach = cloud_reach(max(direction.y, 0.0));
     const vec2 at = direction.xz * reach * 2.2 + sky.time_s * sky.wind_m_s * 0.0015 + 40.0;
     // A texel's angle, seen slantwise.
@@ -65,15 +67,23 @@ CloudSeen cloud_seen(SkyParams sky, vec3 direction)
         for (int near = 0; near < (met.above > -0.09 ? 1 : 0); ++near) {
             const vec2 there = bent + through * met.up;
             // What is finer than the heaps is on the flank that is met; tops are seen at a slant.
-            const float rough = tall > 0.0 ? cloud_lumps(there, 2.2 * tall * met.up, 1.5 * footprint)
-                                           : cloud_field(there, footprint, kCloudOctaves) - cloud_field(there, footprint, kHeapOctaves);
-            const float above = met.above + rough;
-            seen.crease = tall > 0.0 ? 1.0 - smoothstep(-0.05, 0.04, rough) : 0.0;
+            float above = met.above;
+            for (int heap = 0; heap < (tall > 0.0 ? 1 : 0); ++heap) {
+                const float rough = cloud_lumps(there, 2.2 * tall * met.up, 1.5 * footprint);
+                above += rough;
+                seen.crease = 1.0 - smoothstep(-0.05, 0.04, rough);
+            }
+            for (int flatly = 0; flatly < (tall > 0.0 ? 0 : 1); ++flatly) above = cloud_field(there, footprint, kCloudOctaves) - edge;
             seen.hides = smoothstep(0.0, mix(0.11, 0.3, full), above);
             seen.depth = max(above, 0.0) / 0.25;
-            // Through the air before them far ones have less contrast.
-            seen.heavy = mix(0.5, smoothstep(0.32, 1.0, above + edge), exp(-0.13 * reach));
-            for (int lit = 0; lit < (seen.hides > 0.0 ? 1 : 0); ++lit)
+            float broad = 0.5;
+            for (int wet = 0; wet < (sky.rain > 0.0 ? 1 : 0); ++wet) {
+                broad = layer_broad(bent);
+                seen.hidden = rags_hide(direction, sky.time_s * sky.wind_m_s, CLOUD_TEXEL_RAD, sky.rain);
+            }
+            seen.heavy = layer_heavy(above + edge, broad, reach, sky.rain);
+            // A closed layer hides the sun.
+            for (int lit = 0; lit < (seen.hides > 0.0 && sky.cloud_cover < 0.95 ? 1 : 0); ++lit)
                 seen.sunward = max(cloud_field(there + sunward, max(footprint, 0.1), kShadeOctaves) - edge -
                                        (tall > 0.0 ? cloud_rise(met.up + rising) : 0.0), 0.0) / 0.25;
         }
@@ -99,7 +109,9 @@ vec3 cloud_radiance(SkyParams sky, vec3 direction, CloudSeen cloud, vec3 clear_z
                          (0.26 + thin * (0.06 + 0.45 * pow(towards, 10.0) + 1.2 * pow(towards, 80.0))) +
                      sky.clear_level * ((0.35 + 0.3 * cloud.up) / 3.14159265) + sky.ground_radiance * 0.25 + clear_zenith * 0.3;
     const float grey = smoothstep(0.35, 0.95, c);
-    const float relief = mix(1.32, 0.68, cloud.heavy);
+    // What is thick of a layer that rains is slate, of the same luminance.
+    const float slate = sky.rain * (2.0 * max(cloud.heavy, cloud.hidden) - 1.0);
+    const vec3 relief = sky.relief_gain * layer_relief(cloud.heavy, cloud.hidden, sky.rain) * (1.0 + slate * vec3(-0.05, 0.0058, 0.09));
     return mix(lit * mix(1.0, 0.72, clamp(cloud.depth * 0.6, 0.0, 1.0)), overcast * relief, grey);
 }
 

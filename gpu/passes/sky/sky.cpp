@@ -8,6 +8,7 @@
 #include "formulas/light/brdf.h"
 #include "formulas/light/cube_quads.h"
 #include "formulas/light/fog.h"
+#include "formulas/light/rain_clouds.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/sky_quads_io.h"
@@ -127,6 +128,28 @@ void see_clear_sky(SkyMaps& maps, const shared::SkyParams& p)
     maps.level_of = seen;
 }
 
+// Light on level ground of a closed layer without its rain, over that with it: rain moves light about the sky, it makes none.
+float relief_gain(const shared::SkyParams& p)
+{
+    if (p.rain <= 0.0f || p.cloud_cover <= 0.0f) return 1.0f;
+    constexpr int kRings = 9, kAround = 40;
+    const glm::vec2 drift_m = p.time_s * p.wind_m_s;
+    float even = 0.0f, rains = 0.0f;
+    for (int ring = 0; ring < kRings; ++ring) {
+        // Rings of as much level ground's light of an even sky.
+        const float up = std::sqrt((static_cast<float>(ring) + 0.5f) / kRings);
+        const float level = std::sqrt(1.0f - up * up);
+        for (int k = 0; k < kAround; ++k) {
+            const float angle = 2.0f * shared::kPi * (static_cast<float>(k) + 0.5f * static_cast<float>(ring % 2)) / kAround;
+            const glm::vec3 d(level * std::cos(angle), up, level * std::sin(angle));
+            const float weight = 1.0f + 2.0f * up;  // CIE overcast
+            even += weight * shared::layer_relief_wide(d, drift_m, 0.06f, 0.0f);
+            rains += weight * shared::layer_relief_wide(d, drift_m, 0.06f, p.rain);
+        }
+    }
+    return even / rains;
+}
+
 }  // namespace
 
 shared::SkyParams sky_params(const Frame& frame, SkyMaps& maps)
@@ -139,6 +162,8 @@ shared::SkyParams sky_params(const Frame& frame, SkyMaps& maps)
     p.cloud_cover = std::clamp(sky.cloud_cover, 0.0f, 1.0f);
     p.time_s = static_cast<float>(frame.settings.time_s);
     p.wind_m_s = frame.weather.wind_m_s;
+    p.rain = std::clamp(frame.weather.rain, 0.0f, 1.0f);
+    p.relief_gain = relief_gain(p);
     p.night_radiance = glm::mix(kClearNight, kCloudyNight, p.cloud_cover);
     p.fog_per_m = fog_per_m(frame);
     if (frame.fog.mode == FogMode::Metres) p.fog_per_m = shared::fog_beyond_haze(p.fog_per_m);

@@ -35,12 +35,11 @@ float kept_by_fog(float up)
 }
 
 // What the fog itself sends: light from above, scattered until it comes from all sides (a thick layer
-// throws a part of it back up), and around a sun that shines into it a glow.
-vec3 fog_radiance(vec3 direction, vec3 light_on_ground)
+// throws a part of it back up), and around a sun that shines into it a glow. relief: of the clouds that light it there.
+vec3 fog_radiance(vec3 direction, vec3 light_on_ground, float relief)
 {
     const float depth = sky.fog_mode == FOG_LINEAR ? 0.0 : sky.fog_per_m * sky.fog_height_m;
-    const float half_land = 0.75;  // the lower half of what surrounds it is the darker land
-    const vec3 from_all = light_on_ground * (half_land / (kPi * (1.0 + 0.11 * depth)));
+    const vec3 from_all = light_on_ground * (relief * fog_from_above(direction.y, sky.land_albedo) / (kPi * (1.0 + 0.11 * depth)));
     const float up = max(sky.sun_direction.y, 0.05);
     const float shine = (1.0 - smoothstep(0.25, 0.95, sky.cloud_cover)) * exp(-depth / up);
     return from_all + sky.sun_at_ground * (shine * fog_phase(dot(direction, sky.sun_direction)));
@@ -62,6 +61,7 @@ void main()
     const vec3 seen = normalize(vec3(direction.x, max(direction.y, 0.002), direction.z));
     vec3 radiance = vec3(0.0);
     float seen_through = 1.0;
+    float relief = 1.0;
     // A loop, which is left when a group of texels is of the land alone: a branch is not.
     for (int once = 0; once < (direction.y > -0.06 ? 1 : 0); ++once) {
         radiance = clear_air(seen);
@@ -71,6 +71,8 @@ void main()
         const float haze = mix(exp(-0.06 / max(seen.y, 0.004)), 1.0, smoothstep(0.6, 1.0, sky.cloud_cover));
         radiance = mix(radiance, cloud, clouds.hides * haze);
         seen_through = 1.0 - clouds.hides * haze;
+        // Rain and fog are lit by all clouds around them, most by those they hang under.
+        relief += 0.5 * sky.rain * clouds.hides * (sky.relief_gain * layer_relief(clouds.heavy, clouds.hidden, sky.rain) - 1.0);
     }
     radiance += sky.night_radiance * vec3(0.75, 0.85, 1.1);
     const float below = smoothstep(0.0, -0.06, direction.y);
@@ -79,7 +81,7 @@ void main()
     if (sky.fog_per_m > 0.0) {
         seen_through *= kept_by_fog(direction.y);
         const vec3 lit = light_under_clouds(sky) + sky.night_radiance * kPi;
-        radiance = mix(fog_radiance(direction, lit), radiance, kept_by_fog(direction.y));
+        radiance = mix(fog_radiance(direction, lit, relief), radiance, kept_by_fog(direction.y));
     }
     imageStore(target, id, vec4(min(radiance, vec3(60000.0)), seen_through));
 }

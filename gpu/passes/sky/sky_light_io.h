@@ -31,6 +31,8 @@ struct SkyParams {
     vec3 clear_level;  // what the clear sky sends onto level ground
     float land_albedo;
     vec3 sun_at_ground;  // of a clear sky; fades a little below the horizon, where clouds have it still
+    float rain;          // 0..1: what a closed layer looks like from below
+    float relief_gain;   // makes the light of such a layer that of an even one
 };
 
 SHARED_END
