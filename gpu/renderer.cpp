@@ -188,8 +188,6 @@ struct Renderer::Impl {
         }
         lights.insert(lights.end(), frame.extra_lights.begin(), frame.extra_lights.end());
         facts.lamps = lights.size();
-        check_light_lists(device.limits(), lights.size(), frame.settings.width,
-                          frame.settings.height);
         light_table = {};
         light_arena = std::make_unique<MemoryArena>(device);
         LightTableParams params{.shadows = frame.settings.shadows ? frame.settings.lamp_shadows : 0,
@@ -207,6 +205,14 @@ struct Renderer::Impl {
             };
         }
         light_table = make_light_table(device, *light_arena, lights, params);
+        check_light_lists(device.limits(), light_table.count, frame.settings.width, frame.settings.height);
+        if (light_table.count > kLightsAnywhere) {
+            std::vector<shared::FrameConstants> views;
+            const bool one = params.in_view != nullptr;
+            for (int i = 0; i < (one ? 1 : frame.settings.samples); ++i)
+                views.push_back(frame_constants(frame, by_day, scene->bounds(), static_cast<std::uint32_t>(i)));
+            check_light_crowd(light_table, frame.settings, views);
+        }
         return facts;
     }
 

@@ -52,22 +52,33 @@ Json rows(const glm::mat4& matrix)
     return result;
 }
 
+// What a reader needs to find a point of the world in the picture, without a look into our code.
+constexpr const char* kPerspective =
+    "view takes the world to x right, y up, -z ahead, metres; u = cx + fx x / -z, v = cy - fy y / -z, pixels from the "
+    "upper left corner of the picture";
+constexpr const char* kOrthographic =
+    "view takes the world to x right, y up, -z ahead, metres; u = cx + fx x, v = cy - fy y, pixels from the upper left "
+    "corner of the picture";
+
 Json camera_json(const scene::Camera& camera, int width, int height)
 {
     Json json;
     json["name"] = camera.name;
     json["to_world"] = rows(camera.to_world);
     json["view"] = rows(glm::inverse(camera.to_world));
-    if (camera.orthographic_height_m > 0.0f) {
+    const bool orthographic = camera.orthographic_height_m > 0.0f;
+    double focal_px = 0.0;  // of a parallel view: pixels a metre
+    if (orthographic) {
         json["orthographic_height_m"] = shortest(camera.orthographic_height_m);
+        focal_px = shortest(static_cast<float>(height) / camera.orthographic_height_m);
     } else {
         const glm::mat4 projection = scene::clip_projection(camera, width, height, 0.0f);
         json["projection"] = rows(projection);
         json["vertical_fov_rad"] = shortest(camera.vertical_fov_rad);
-        const double focal_px = shortest(0.5f * static_cast<float>(height) * projection[1][1]);
-        json["intrinsics"] = {
-            {"fx", focal_px}, {"fy", focal_px}, {"cx", 0.5 * width}, {"cy", 0.5 * height}};
+        focal_px = shortest(0.5f * static_cast<float>(height) * projection[1][1]);
     }
+    json["intrinsics"] = {{"fx", focal_px}, {"fy", focal_px}, {"cx", 0.5 * width}, {"cy", 0.5 * height}};
+    json["conventions"] = orthographic ? kOrthographic : kPerspective;
     json["near_m"] = shortest(camera.near_m);
     return json;
 }

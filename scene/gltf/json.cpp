@@ -252,7 +252,9 @@ float JsonObject::number(std::string_view key, float fallback, float low, float 
     if (!value->is_number()) fail(key, "must be a number, got " + describe(*value), kFixType);
     const auto number = value->get<double>();
     if (!(number >= static_cast<double>(low) && number <= static_cast<double>(high))) {
-        std::string range = "at least " + number_text(static_cast<double>(low));
+        const bool too_low = !(number >= static_cast<double>(low));
+        std::string range = too_low ? "at least " + number_text(static_cast<double>(low))
+                                    : "at most " + number_text(static_cast<double>(high));
         if (high < std::numeric_limits<float>::max()) {
             range = "in [" + number_text(static_cast<double>(low)) + ", " +
                     number_text(static_cast<double>(high)) + "]";

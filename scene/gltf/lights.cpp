@@ -55,7 +55,9 @@ std::optional<Light> read_light(const JsonObject& json, std::size_t number)
     }
     light.direction = {0.0f, 0.0f, -1.0f};
     if (json.numbers("color", {&light.color.x, 3})) {
-        light.color = glm::max(light.color, glm::vec3(0.0f));
+        const glm::vec3 given = light.color;
+        light.color = glm::max(given, glm::vec3(0.0f));
+        if (light.color != given) json.warn("color", "the value is out of range and was clamped");
     }
     light.intensity = json.clamped("intensity", 1.0f, 0.0f, kLargest);
     if (light.kind != LightKind::Directional && json.has("range")) {

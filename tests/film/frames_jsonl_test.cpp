@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include <vector>
 
@@ -84,6 +86,37 @@ TEST(FramesJsonl, SayHowAFrameIsExposed)
     facts.exposure_by = {"auto", 9.5f, glm::vec3(1.25f, 1.0f, 0.5f)};
     EXPECT_THAT(frame_line(facts), testing::HasSubstr("\"metered_ev100\":9.5,"));
     EXPECT_THAT(frame_line(facts), testing::HasSubstr("\"white_balance\":{\"light_rgb\":[1.25,1.0,0.5],\"share\":1.0}"));
+}
+
+// A point of the world is where the line's numbers and its formula put it: where the renderer draws it.
+TEST(FramesJsonl, ACamerasNumbersFindAPointInThePicture)
+{
+    for (const float height_m : {0.0f, 6.0f}) {
+        FrameFacts facts = facts_of(1, "a");
+        facts.input.settings.width = 320;
+        facts.input.settings.height = 200;
+        scene::Camera& camera = facts.input.camera;
+        camera.to_world = glm::inverse(glm::lookAt(glm::vec3(3, 2, 5), glm::vec3(0.5f, 1, 0), glm::vec3(0, 1, 0)));
+        camera.orthographic_height_m = height_m;
+        const nlohmann::json line = nlohmann::json::parse(frame_line(facts)).at("camera");
+        const glm::vec4 point(0.2f, 0.4f, -0.7f, 1.0f);
+        double at[3];
+        for (std::size_t row = 0; row < 3; ++row) {
+            at[row] = 0.0;
+            for (std::size_t i = 0; i < 4; ++i)
+                at[row] += line.at("view").at(row).at(i).get<double>() * static_cast<double>(point[static_cast<int>(i)]);
+        }
+        const bool parallel = height_m > 0.0f;
+        EXPECT_THAT(line.at("conventions").get<std::string>(),
+                    testing::HasSubstr(parallel ? "u = cx + fx x, v = cy - fy y," : "u = cx + fx x / -z, v = cy - fy y / -z"));
+        const auto& k = line.at("intrinsics");
+        const double away = parallel ? 1.0 : -at[2];
+        const double u = k.at("cx").get<double>() + k.at("fx").get<double>() * at[0] / away;
+        const double v = k.at("cy").get<double>() - k.at("fy").get<double>() * at[1] / away;
+        const glm::vec4 clip = scene::clip_projection(camera, 320, 200, 100.0f) * glm::inverse(camera.to_world) * point;
+        EXPECT_NEAR(u, 160.0 * (1.0 + static_cast<double>(clip.x / clip.w)), 0.01) << height_m;
+        EXPECT_NEAR(v, 100.0 * (1.0 - static_cast<double>(clip.y / clip.w)), 0.01) << height_m;
+    }
 }
 
 TEST(FramesJsonl, BrokenLinesAreLeftOut)

@@ -358,6 +358,7 @@ TEST_F(RendererTest, NoLightIsDroppedWhereManyMeet)
     EXPECT_GT(pixel(listed, 24, 16).g, 255 * 0.6f / 3.14159f / 4.0f) << "more than 255 lamps";
     scene.lights.resize(60001, scene.lights[0]);
     renderer->load(scene, {});
+    frame.settings.all_lights = false;
     EXPECT_THROW(renderer->render(frame), Error);
 }
 

@@ -153,6 +153,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "cameras[0].type: must be perspective"},
         BadCase{"cone", "/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", 0.6,
                 "extensions.KHR_lights_punctual.lights[0].spot.innerConeAngle: must be less"},
+        BadCase{"light_overflow", "/extensions/KHR_lights_punctual/lights/0/intensity", 1e39,
+                "extensions.KHR_lights_punctual.lights[0].intensity: must be at most"},
         BadCase{"instances_differ", "/nodes/4/extensions/EXT_mesh_gpu_instancing/attributes/SCALE",
                 1, "nodes[4].extensions.EXT_mesh_gpu_instancing.attributes.SCALE: needs 3"},
         BadCase{"version", "/asset/version", "1.0", "asset.version: must be 2.0, got \"1.0\""},

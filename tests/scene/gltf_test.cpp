@@ -355,6 +355,13 @@ TEST(Gltf, SaysWhatItIgnores)
             HasSubstr("metallicFactor: the value is out of range")));
 }
 
+TEST(Gltf, SaysThatALampTakesLightAway)
+{
+    const Scene scene = load(edited({{"/extensions/KHR_lights_punctual/lights/0/color", {-1, 0.5, 1}}}));
+    EXPECT_EQ(scene.lights.at(0).color, glm::vec3(0.0f, 0.5f, 1.0f));
+    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("lights[0].color: the value is out of range")));
+}
+
 TEST(Gltf, AVariantReplacesMaterials)
 {
     const json document = edited({

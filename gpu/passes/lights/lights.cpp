@@ -1,6 +1,7 @@
 #include "gpu/passes/lights/lights.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -70,11 +71,6 @@ float light_radius_m(const Light& light, float least_lux)
 void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights, int width,
                        int height)
 {
-    if (lights > kMostLights) {
-        throw Error("render: " + std::to_string(lights) + " lights; at most " +
-                        std::to_string(kMostLights) + " are possible in one frame",
-                    "Leave out the faintest, or render the scene in parts.");
-    }
     const auto words = static_cast<int>((lights + 31) / 32);
     const VkDeviceSize bytes = light_lists_bytes(width, height, words);
     const VkDeviceSize elements = std::max<VkDeviceSize>(bytes / sizeof(glm::uvec2), LIGHT_TEXELS * lights);
@@ -86,6 +82,21 @@ void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights,
                         std::to_string(limits.maxTexelBufferElements) + " texels in one buffer",
                     "Choose a smaller --size or fewer lights.");
     }
+}
+
+void check_light_crowd(const LightTable& table, const FrameSettings& settings,
+                       const std::vector<shared::FrameConstants>& views)
+{
+    if (table.count <= kLightsAnywhere) return;
+    LightCrowd crowd{table.count, table.count};
+    if (!settings.all_lights) {
+        const std::uint32_t ranges = table.ways & (LIGHTS_SHADOWED | LIGHTS_SHADOWED_SHAPED | LIGHTS_PLAIN | LIGHTS_SHAPED);
+        crowd = largest_light_crowd(table.balls, std::popcount(ranges), views, settings.width, settings.height);
+    }
+    if (crowd.turns <= kMostLightTurns) return;
+    throw Error("render: up to " + std::to_string(crowd.lights) + " of " + std::to_string(table.count) +
+                    " lights reach one part of the picture; " + std::to_string(kLightsAnywhere) + " always may",
+                "Give them shorter ranges ([lamps] range_m), or leave out the faintest.");
 }
 
 namespace {
@@ -246,6 +257,8 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                             rectangle ? windowed : 0.5f * light->length_m, light->glows ? static_cast<float>(LIGHT_GLOWS) : light->specular,
                             static_cast<float>(light->profile) + (light->in_lantern ? 0.5f : 0.0f));
     }
+    if (table.count > kLightsAnywhere)
+        for (const Light* light : ordered) table.balls.emplace_back(light->position_m, reach_m(*light));
     if (texels.empty()) texels.emplace_back(0.0f);
     table.texels = arena.buffer(
         {.name = "lights",

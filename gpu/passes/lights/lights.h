@@ -9,6 +9,7 @@
 #include "gpu/frame/constants_range.h"
 #include "gpu/frame/frame.h"
 #include "gpu/frame/targets.h"
+#include "gpu/passes/lights/light_turns.h"
 #include "gpu/upload/scene_names.h"
 
 namespace petrichor::gpu {
@@ -26,6 +27,7 @@ struct LightTable {
     bool rectangles = false;         ///< some are surfaces that glow, without the lobes of those with a size
     bool glows = false;              ///< some are surfaces that glow
     std::uint32_t ways = 0;          ///< LIGHTS_... that some need
+    std::vector<glm::vec4> balls;    ///< centre and reach of each, where there are more than kLightsAnywhere
     std::vector<Light> shadowed;     ///< that own a shadow, in the order of its maps
     std::vector<Light> brightest;    ///< at most kBrightestLamps, as the eye sees them
 
@@ -51,13 +53,15 @@ inline constexpr float kUnseenCodes = 1.0f / 16.0f;  // of 255
 /// but not beyond where more than kFaintestLux is asked for.
 float light_radius_m(const Light& light, float least_lux = kFaintestLux);
 
-/// Most lights of a frame: CPU drivers cut the loops of one invocation at 65 535 turns, all
-/// together.
-inline constexpr std::size_t kMostLights = 60000;
-
 /// Throws Error when the lists of so many lights at that size are more than the device can bind.
 void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights, int width,
                        int height);
+
+/// Throws Error when so many lights may reach one part of the picture that loops over them could end early.
+///
+///   views  of all samples
+void check_light_crowd(const LightTable& table, const FrameSettings& settings,
+                       const std::vector<shared::FrameConstants>& views);
 
 struct LightTableParams {
     int shadows = 0;  ///< so many lamps own a shadow: those that give most light at the eye, by intensity over
