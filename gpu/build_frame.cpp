@@ -479,6 +479,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, *r.triangles, r.lights->shadowed);
 
+    // Decals and surfaces of users' own lay snow where the weather has none.
+    r.targets->wet_alone = r.resolve && !made.snow && !made.frost && !r.scene->two_sets() && !r.decals && !r.scene->own_surfaces().any();
+
     LightingVariant variant;
     variant.weather = weathered;
     variant.split = r.parts->split;

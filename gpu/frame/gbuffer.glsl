@@ -53,9 +53,17 @@ vec4 stores_of(vec4 code)
     return vec4(one_as_two(code.z), one_as_two(code.w));
 }
 
-uint material_of(vec4 code)
+// The same in half the bytes, where nothing is white: WEATHER_WET.
+vec4 wet_code(vec4 weather, uint material)
 {
-    return uint(code.x * 65535.0 + 0.5);
+    return vec4(weather.x, weather.y, float(material >> 8) / 255.0, float(material & 255u) / 255.0);
+}
+
+// kept: WEATHER_..
+uint material_of(vec4 code, uint kept)
+{
+    if (kept != WEATHER_WET) return uint(code.x * 65535.0 + 0.5);
+    return uint(code.z * 255.0 + 0.5) << 8 | uint(code.w * 255.0 + 0.5);
 }
 
 // As the targets hold it.
@@ -84,7 +92,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel, uint flags)
     return code;
 }
 
-GBufferTexel decode_gbuffer(GBufferCode code, uint flags)
+GBufferTexel decode_gbuffer(GBufferCode code, uint kept, uint flags)
 {
     GBufferTexel texel;
     texel.base_color = code.color.rgb * code.color.rgb;
@@ -97,11 +105,12 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint flags)
     texel.model = uint(code.material.w * 255.0 + 0.5);
     texel.f0 = code.payload.rgb * code.payload.rgb;
     texel.tangent = code.payload.a;
-    texel.weather = stores_of(code.weather);
-    texel.material = material_of(code.weather);
-    texel.snow_smoothness = code.weather.y;
+    const bool wet = kept == WEATHER_WET;
+    texel.weather = wet ? vec4(code.weather.xy, 0.0, 0.0) : stores_of(code.weather);
+    texel.material = material_of(code.weather, kept);
+    texel.snow_smoothness = wet ? 0.0 : code.weather.y;
     texel.first_share = 1.0;
-    if ((flags & FRAME_TWO_SETS) != 0u) {
+    if (!wet && (flags & FRAME_TWO_SETS) != 0u) {
         const vec2 both = one_as_two(code.weather.y);
         texel.snow_smoothness = both.x;
         texel.first_share = both.y;

@@ -11,11 +11,11 @@ layout(binding = GBUFFER_FIRST_BINDING) uniform samplerBuffer depth_rows;
 GBUFFER_TABLE(ROW)
 #undef ROW
 
-// at: row_texel of the pixel. What a frame does not keep reads as zero.
-GBufferCode fetch_gbuffer(int at, bool has_weather, bool has_emission, bool has_baked)
+// at: row_texel of the pixel; kept: WEATHER_.. What a frame does not keep reads as zero.
+GBufferCode fetch_gbuffer(int at, uint kept, bool has_emission, bool has_baked)
 {
     const bool ALWAYS = true;
-    const bool WEATHER = has_weather;
+    const bool WEATHER = kept != WEATHER_DRY;
     const bool EMISSION = has_emission;
     const bool BAKED = has_baked;
     GBufferCode code;

@@ -32,6 +32,11 @@
 #define GBUFFER_TABLE(ROW) \
     GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW) GBUFFER_BAKED(ROW)
 
+// What is kept of the weather; specialization constants of passes that write or read it.
+#define WEATHER_DRY 0
+#define WEATHER_WHOLE 1  // the row above
+#define WEATHER_WET 2    // half as wide, in place of it, where nothing is white and no surface has two sets (FrameTargets::wet): film, standing water, number of the material in two
+
 // Bindings of a pass that reads the G-buffer: depth at the first, the targets behind it.
 #define GBUFFER_BINDINGS 8
 

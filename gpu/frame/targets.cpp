@@ -92,11 +92,12 @@ std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts
     return attachments;
 }
 
-void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBufferRows& rows)
+void bind_gbuffer(Bindings& bindings, std::uint32_t first, FrameTargets& targets)
 {
+    GBufferRows& rows = targets.rows;
     bindings.push_back({first, texels(*rows.depth)});
 #define ROW(name, location, format, when, meaning) \
-    bindings.push_back({first + 1 + location, texels(*rows.name)});
+    bindings.push_back({first + 1 + location, texels(&rows.name == &rows.weather ? targets.weather_rows() : *rows.name)});
     GBUFFER_TABLE(ROW)
 #undef ROW
 }
@@ -104,7 +105,7 @@ void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBufferRows& rows)
 void add_gbuffer_rows(FrameGraph& graph, FrameTargets& targets, const GBufferParts& parts)
 {
     [[maybe_unused]] const bool ALWAYS = true;
-    const bool WEATHER = parts.weather;
+    const bool WEATHER = parts.weather && !targets.wet_alone;
     const bool EMISSION = parts.emission;
     const bool BAKED = parts.baked;
     std::vector<std::pair<GpuImage*, GpuBuffer*>> copies{
@@ -113,6 +114,7 @@ void add_gbuffer_rows(FrameGraph& graph, FrameTargets& targets, const GBufferPar
     if (when) copies.emplace_back(targets.gbuffer.name.get(), targets.rows.name.get());
     GBUFFER_TABLE(ROW)
 #undef ROW
+    if (targets.wet_alone) copies.emplace_back(targets.wet.get(), targets.wet_rows.get());
     add_rows(graph, "gbuffer_rows", copies);
 }
 
@@ -159,6 +161,7 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     std::tie(targets.gbuffer.name, targets.rows.name) = parted(in_rows(#name, VK_FORMAT_##format, color));
     GBUFFER_TABLE(ROW)
 #undef ROW
+    std::tie(targets.wet, targets.wet_rows) = parted(in_rows("wet", VK_FORMAT_R8G8B8A8_UNORM, color));
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT,
                                    storage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);

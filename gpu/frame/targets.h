@@ -37,9 +37,6 @@ GBufferParts gbuffer_parts(const GpuScene& scene, bool weather);
 /// The targets as attachments, by location; those of parts left out are empty.
 std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts& parts);
 
-/// Adds the rows of depth and all targets at `first` and behind, as gbuffer_read.glsl reads them.
-void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBufferRows& rows);
-
 /// Tiles of 8 x 8 pixels: gpu/frame/pixel_list_io.h, and the arguments of a dispatch over them.
 struct TileList {
     std::unique_ptr<GpuBuffer> tiles;
@@ -52,6 +49,9 @@ struct FrameTargets {
     int height = 0;
     GBuffer gbuffer;
     GBufferRows rows;                     ///< filled by add_gbuffer_rows
+    bool wet_alone = false;  ///< this frame's weather is kept as WEATHER_WET, in place of its target in ..
+    std::unique_ptr<GpuImage> wet;
+    std::unique_ptr<GpuBuffer> wet_rows;
     SamplerHandle nearest;                ///< for texelFetch
     SamplerHandle between;                ///< between texels of floats, where the device filters them
     bool filters = false;                 ///< whether it does
@@ -79,11 +79,17 @@ struct FrameTargets {
     std::unique_ptr<GpuBuffer> display;            ///< RGBA8, read by the host
     std::vector<std::unique_ptr<GpuBuffer>> aovs;  ///< read by the host; gpu/outputs/aov.h
 
+    /// Which of WEATHER_.. a pass reads in a frame that keeps some.
+    std::uint32_t weather_kept() const { return wet_alone ? WEATHER_WET : WEATHER_WHOLE; }
+    GpuBuffer& weather_rows() { return wet_alone ? *wet_rows : *rows.weather; }
     int tiles_x() const;
     int tiles_y() const;
     int coarse_x() const;
     int coarse_y() const;
 };
+
+/// Adds the rows of depth and all targets at `first` and behind, as gbuffer_read.glsl reads them.
+void bind_gbuffer(Bindings& bindings, std::uint32_t first, FrameTargets& targets);
 
 // Copies what surfaces (and decals) have written from the images into the rows.
 //

@@ -11,7 +11,7 @@
 layout(local_size_x = AOV_TILE, local_size_y = AOV_TILE) in;
 layout(constant_id = AOV_SPEC_ROWS_LOW) const uint ROWS_LOW = 0xffffffffu;
 layout(constant_id = AOV_SPEC_ROWS_HIGH) const uint ROWS_HIGH = 0xffffffffu;
-layout(constant_id = AOV_SPEC_HAS_WEATHER) const uint HAS_WEATHER = 1u;
+layout(constant_id = AOV_SPEC_WEATHER) const uint WEATHER = 1u;
 layout(constant_id = AOV_SPEC_HAS_EMISSION) const uint HAS_EMISSION = 1u;
 layout(constant_id = AOV_SPEC_HAS_BAKED) const uint HAS_BAKED = 1u;
 layout(binding = AOV_FRAME, scalar) uniform Frame { FrameConstants frame; };
@@ -74,7 +74,7 @@ void main()
     const bool surface = p.depth > 0.0;
     p.position = pixel_position(frame, vec2(texel) + 0.5, max(p.depth, 1.0e-9));
     p.g = decode_gbuffer(
-        fetch_gbuffer(row_texel(texel, frame.size), HAS_WEATHER != 0u, HAS_EMISSION != 0u, HAS_BAKED != 0u), frame.flags);
+        fetch_gbuffer(row_texel(texel, frame.size), WEATHER, HAS_EMISSION != 0u, HAS_BAKED != 0u), WEATHER, frame.flags);
     if (MATERIALS != 0u) p.g.weather = vec4(0.0);
     set_si(p);
 

@@ -32,7 +32,7 @@ void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
         .shader = "aov.comp",
         .constants = {{AOV_SPEC_ROWS_LOW, static_cast<std::uint32_t>(group.rows)},
                       {AOV_SPEC_ROWS_HIGH, static_cast<std::uint32_t>(group.rows >> 32)},
-                      {AOV_SPEC_HAS_WEATHER, parts.weather},
+                      {AOV_SPEC_WEATHER, parts.weather ? targets.weather_kept() : WEATHER_DRY},
                       {AOV_SPEC_HAS_EMISSION, parts.emission},
                       {AOV_SPEC_HAS_BAKED, parts.baked},
                       {AOV_SPEC_PLACE, place.present()},
@@ -42,7 +42,7 @@ void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
         .push = {},
         .groups = groups_over(targets.width, targets.height, AOV_TILE)};
     bind_place(pass.bindings, AOV_PLACE_TABLE, place);
-    bind_gbuffer(pass.bindings, AOV_GBUFFER, targets.rows);
+    bind_gbuffer(pass.bindings, AOV_GBUFFER, targets);
     graph.add(std::move(pass));
     graph.read_back({targets.aovs[buffer].get()});
 }

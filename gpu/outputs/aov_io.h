@@ -9,7 +9,7 @@
 // Rows of the table that are written, a bit each; the shader is compiled for them.
 #define AOV_SPEC_ROWS_LOW 0   // rows 0 to 31
 #define AOV_SPEC_ROWS_HIGH 1  // rows 32 to 63
-#define AOV_SPEC_HAS_WEATHER 2
+#define AOV_SPEC_WEATHER 2
 #define AOV_SPEC_HAS_EMISSION 3
 #define AOV_SPEC_HAS_BAKED 4
 #define AOV_SPEC_PLACE 5

@@ -1,4 +1,6 @@
 // Pipelines that are made for more kinds of weather than a frame has draw it as those of its own do.
+#include <algorithm>
+
 #include "gpu/frame/falls.h"
 #include "gpu/frame/view.h"
 #include "scene/patches/tracer.h"
@@ -70,6 +72,38 @@ TEST_F(WeatherPipelines, RainThatTheWindLeavesIsAsItWouldBeAlone)
     const RenderResult behind = renderer->render(*steady);
     EXPECT_EQ(behind.beauty, alone.beauty);
     EXPECT_EQ(behind.aovs[0].pixels, alone.aovs[0].pixels);
+}
+
+TEST_F(WeatherPipelines, RainAloneIsKeptInHalfTheBytesAndSaysTheSame)
+{
+    // A material whose number needs both of its bytes.
+    const std::vector<Material> many(258, plain_material(glm::vec3(0.2f)));
+    const Scene scene = scene_of({quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 255), quad({-3, 1, 1}, {3, 0, 0}, {0, 0, -4}, 257)}, many);
+    renderer->load(scene, {});
+    Frame rain = rain_in(6.0f);
+    rain.weather.flood_cracks = rain.weather.flood_puddles = 1.0f;
+    rain.settings.aovs = {"film", "water", "snow", "frost", "material"};
+    rain.settings.surface_path = SurfacePath::Visibility;
+    const RenderResult half = renderer->render(rain);
+    Frame hoar = rain;
+    hoar.weather.frost = 1.0e-4f;  // too little to be seen, but kept
+    const RenderResult whole = renderer->render(hoar);
+    EXPECT_EQ(aov(half, "material", 20, 25), 257.0f);
+    EXPECT_EQ(aov(half, "material", 50, 50), 255.0f);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_GT(*std::max_element(half.aovs[i].pixels.begin(), half.aovs[i].pixels.end()), 0.3f) << half.aovs[i].name;
+    }
+    for (std::size_t i = 0; i < half.aovs.size(); ++i) {
+        ASSERT_EQ(half.aovs[i].pixels.size(), whole.aovs[i].pixels.size());
+        for (std::size_t k = 0; k < half.aovs[i].pixels.size(); ++k) {
+            ASSERT_NEAR(half.aovs[i].pixels[k], whole.aovs[i].pixels[k], 1.01f / 255.0f) << half.aovs[i].name << " " << k;
+        }
+    }
+    // Snow is kept whole again, and rain behind it is as it was.
+    Frame snow = rain;
+    snow.weather.snow_amount = 0.8f;
+    EXPECT_GT(aov(renderer->render(snow), "snow", 50, 50), 0.3f);
+    EXPECT_EQ(renderer->render(rain).beauty, half.beauty);
 }
 
 TEST_F(WeatherPipelines, ThinSnowKnowsNothingOfTheBodyThatItMayHave)

@@ -33,7 +33,7 @@ void main()
     const vec4 weather = texelFetch(laid_weather, texel, 0);
     if (color.a + normal.a + matter.a + weather.a <= 0.0) return;
     if (REFUSED != 0u) {
-        const int number = int(material_of(imageLoad(weather_map, texel)));
+        const int number = int(material_of(imageLoad(weather_map, texel), WEATHER_WHOLE));
         if (texelFetch(material_looks, number * MATERIAL_LOOK_TEXELS + 3).y < 0.5) return;
     }
     vec4 code = imageLoad(color_map, texel);

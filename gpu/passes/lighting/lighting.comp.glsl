@@ -120,7 +120,7 @@ void main()
     if (PARTS != 0u) parts = no_parts();
     if (TOGETHER || there) {
         const GBufferTexel g =
-            decode_gbuffer(fetch_gbuffer(row_texel(texel, frame.size), WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
+            decode_gbuffer(fetch_gbuffer(row_texel(texel, frame.size), WEATHER, EMISSION != 0u, BAKED != 0u), WEATHER, frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);

@@ -27,7 +27,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         .name = "lighting",
         .shader = variant.shader,
         .constants = {{FRAME_SPEC_LANES, targets.lanes},
-                      {LIGHTING_SPEC_WEATHER, variant.weather},
+                      {LIGHTING_SPEC_WEATHER, variant.weather ? targets.weather_kept() : WEATHER_DRY},
                       {LIGHTING_SPEC_SHADOWS, variant.shadows},
                       {LIGHTING_SPEC_IMAGE_BASED_LIGHT, variant.image_based_light},
                       {LIGHTING_SPEC_AMBIENT_OCCLUSION, variant.ambient_occlusion},
@@ -88,7 +88,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         const auto id = static_cast<std::uint32_t>(LIGHTING_SPEC_MODEL + i);
         pass.constants.push_back({id, variant.models[i]});
     }
-    bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.rows);
+    bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets);
     add_over_tiles(graph, targets, std::move(pass), targets.surface_tiles, variant.pixels);
 }
 

@@ -249,7 +249,7 @@ vec2 reflection_label(vec3 weight, Hit hit, float probed)
     if (shares.x >= max(shares.y, shares.z)) {
         const ivec2 at = clamp(ivec2(hit.pixel), ivec2(0), frame.size - 1);
         if (texelFetch(depth_rows, row_texel(at, frame.size)).r > 0.0) {
-            return vec2(float(material_of(texelFetch(weather_rows, row_texel(at, frame.size)))), strength * shares.x);
+            return vec2(float(material_of(texelFetch(weather_rows, row_texel(at, frame.size)), LABEL)), strength * shares.x);
         }
         return vec2(REFLECTS_SKY, strength * (shares.x + shares.z));
     }

@@ -50,6 +50,16 @@ float relief_height(SurfaceInput at)
     return number_at(height_texture, TEXTURE_HEIGHT, at);
 }
 
+// The same of the nearest of its levels, for water: half the texels, and no line is seen where levels meet.
+float relief_height_of_level(SurfaceInput at)
+{
+    if (MIXED || LAYERED) return at.relief;
+    const Uv uv = coordinates(TEXTURE_HEIGHT, at, vec2(0.0));
+    const vec2 size = vec2(textureSize(height_texture, 0));
+    const float level = float(max(whole_level(uv.dx * size, uv.dy * size), 0));
+    return channel_of(textureLod(height_texture, uv.at, level), TEXTURE_HEIGHT);
+}
+
 vec4 water_accumulation(SurfaceInput at)
 {
     if (!MIXED) return material.water_accumulation;

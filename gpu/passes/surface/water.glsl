@@ -42,7 +42,7 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
     float height = material.default_height;
     float blurred = 0.0;
     if (mapped) {
-        height = relief_height(at);
+        height = SNOW != 0u || FROST != 0u ? relief_height(at) : relief_height_of_level(at);
     } else {
         const vec2 dx = at.position_dx.xz;
         const vec2 dy = at.position_dy.xz;

@@ -25,13 +25,18 @@ vec2 quad_texel(usamplerBuffer quads, int bits, vec2 uv, int level)
     return (rows.xy + (rows.zw - rows.xy) * share.x) * (1.0 / 255.0);
 }
 
-// The level whose texels are nearest to as far apart as steps of the picture; dx, dy: repeats of the map. Half the
-// logarithm of their square, rounded, is half the exponent of twice the square.
+// The level whose texels are nearest to as far apart as steps of the picture; dx, dy: in texels of the first. Half the
+// logarithm of their square, rounded, is half the exponent of twice the square. Below 0 where they lie closer.
+int whole_level(vec2 dx, vec2 dy)
+{
+    return ((floatBitsToInt(max(dot(dx, dx), dot(dy, dy)) * 2.0) >> 23) - 127) >> 1;
+}
+
+// dx, dy: repeats of a map of 2^bits texels a side.
 int quad_level(int bits, vec2 dx, vec2 dy)
 {
     const float texels = float(1 << bits);
-    const int twice = floatBitsToInt(max(dot(dx, dx), dot(dy, dy)) * (2.0 * texels * texels));
-    return clamp(((twice >> 23) - 127) >> 1, 0, bits);
+    return clamp(whole_level(dx * texels, dy * texels), 0, bits);
 }
 
 #endif

@@ -32,6 +32,7 @@ layout(set = 0, binding = RESOLVE_COUNTS) uniform usamplerBuffer ends;
         uniform writeonly image2D out_##name;
 GBUFFER_TABLE(ROW)
 #undef ROW
+layout(set = 0, binding = RESOLVE_WET, rgba8) uniform writeonly image2D out_wet;
 layout(set = 0, binding = RESOLVE_SHARES, rgba32ui) uniform writeonly uimage2D out_shares;
 layout(set = 0, binding = RESOLVE_DEPTH) uniform sampler2D depth_map;
 layout(push_constant, scalar) uniform Push { SurfaceResolveParams params; };
@@ -183,12 +184,13 @@ void main()
     data.texel.emission = data.emission;
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
     const bool ALWAYS = true;
-    const bool WEATHER = SURFACE_WEATHER != 0u;
+    const bool WEATHER = SURFACE_WEATHER == WEATHER_WHOLE;
     const bool EMISSION = SURFACE_EMISSION != 0u;
     const bool BAKED = SURFACE_BAKED != 0u;
 #define ROW(name, location_, format_, when_, meaning_) \
     if (when_ && (SURFACE_PAYLOAD != 0u || location_ != GBUFFER_PAYLOAD)) imageStore(out_##name, pixel, code.name);
     GBUFFER_TABLE(ROW)
 #undef ROW
+    if (SURFACE_WEATHER == WEATHER_WET) imageStore(out_wet, pixel, wet_code(data.texel.weather, data.texel.material));
     if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares, has_layer(LAYER_TEXTURE_SECOND_LOBE)));
 }

@@ -188,6 +188,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     bindings.push_back({RESOLVE_SHARES, storage(*tables.shares)});
     bindings.push_back({RESOLVE_DEPTH, scene.shapes().empty() ? sampled(*maps.ripple, maps.trilinear)
                                                               : sampled(*targets.gbuffer.depth, targets.nearest)});
+    bindings.push_back({RESOLVE_WET, storage(*targets.wet)});
 #define ROW(name, location, format, when, meaning) \
     bindings.push_back({RESOLVE_TARGETS + location, storage(*targets.gbuffer.name)});
     GBUFFER_TABLE(ROW)
@@ -199,7 +200,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
         return any_emission && (material.glows || material.own_surface != 0);
     };
     const std::uint32_t lanes = targets.lanes;
-    const auto variant = [parts, lanes, weather, snow = SnowBits(scene, maps), shares,
+    const std::uint32_t kept = parts.weather ? targets.weather_kept() : WEATHER_DRY;
+    const auto variant = [parts, kept, lanes, weather, snow = SnowBits(scene, maps), shares,
                           glows](const GpuMaterial& material, bool shedding) {
         const std::uint32_t water = material.water | (shedding && material.sheds ? WATER_STEEP : 0u);
         return std::vector<Specialization>{
@@ -219,7 +221,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_BESIDES, material.besides | shares},
             {SURFACE_SPEC_PLACE, weather.place},
             {FRAME_SPEC_LANES, lanes},
-            {RESOLVE_SPEC_WEATHER, parts.weather},
+            {RESOLVE_SPEC_WEATHER, kept},
             {RESOLVE_SPEC_EMISSION, glows(material)},
             {RESOLVE_SPEC_PAYLOAD, (material.besides & BESIDES_AS_CLEARED) == 0},
             {RESOLVE_SPEC_BAKED, parts.baked},

@@ -40,8 +40,9 @@
 #define RESOLVE_COUNTS (SURFACE_BINDINGS + 5)
 #define RESOLVE_SHARES (SURFACE_BINDINGS + 6)  // of layers a pixel; in scenes that have textures of them
 #define RESOLVE_DEPTH (SURFACE_BINDINGS + 7)  // of scenes that have marched shapes
-#define RESOLVE_TARGETS (SURFACE_BINDINGS + 8)  // of the G-buffer, by location
-#define RESOLVE_SPEC_WEATHER 5
+#define RESOLVE_WET (SURFACE_BINDINGS + 8)    // in place of the target of the weather
+#define RESOLVE_TARGETS (SURFACE_BINDINGS + 9)  // of the G-buffer, by location
+#define RESOLVE_SPEC_WEATHER 5  // WEATHER_..
 #define RESOLVE_SPEC_EMISSION 6
 #define RESOLVE_SPEC_BAKED 7
 #define RESOLVE_SPEC_SHAPES 36   // 1: marched shapes show the material

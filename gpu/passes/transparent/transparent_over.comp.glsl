@@ -146,7 +146,7 @@ void main()
         }
         sum.rgb += rest * light;
         const vec4 held = texelFetch(weather_map, texel, 0);
-        const uint material = material_of(held);
+        const uint material = material_of(held, WEATHER_WHOLE);
         vec4 look = texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 1);
         if (BODY != 0u) look.w *= texelFetch(emission_map, texel, 0).a;
         const vec4 more = texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 3);
