@@ -572,8 +572,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_gbuffer_rows(graph, *r.targets, parts);
         if (i == 0) {
             for (std::size_t g = 0; g < aov_groups.size(); ++g) {
-                add_aovs(graph, *r.targets, *r.place, constants, aov_groups[g], g, parts,
-                         !weathered);
+                add_aovs(graph, *r.targets, *r.place, constants, aov_groups[g], g, parts, r.scene->lighting_models(),
+                         settings.light_prepass, !weathered);
             }
         }
         add_tile_lists(graph, *r.targets, constants);

@@ -74,7 +74,9 @@ struct FileClock {
 
 FileClock clock_of(const ScenarioWeather& options, const weather::ForcingTable& table)
 {
-    const std::int64_t first = table.time_us.front(), last = table.time_us.back();
+    const std::int64_t first = table.time_us.front();
+    // A file of one row holds for an hour.
+    const std::int64_t last = table.time_us.size() > 1 ? table.time_us.back() : first + static_cast<std::int64_t>(kHour_us);
     FileClock clock;
     if (std::isfinite(table.site.utc_offset_h)) clock.offset_s = table.site.utc_offset_h * 3600.0;
     const auto time = [&](const std::string& text, const char* what, std::int64_t otherwise) {

@@ -14,6 +14,7 @@ layout(constant_id = AOV_SPEC_ROWS_HIGH) const uint ROWS_HIGH = 0xffffffffu;
 layout(constant_id = AOV_SPEC_WEATHER) const uint WEATHER = 1u;
 layout(constant_id = AOV_SPEC_HAS_EMISSION) const uint HAS_EMISSION = 1u;
 layout(constant_id = AOV_SPEC_HAS_BAKED) const uint HAS_BAKED = 1u;
+layout(push_constant, scalar) uniform Push { AovPush push; };
 layout(binding = AOV_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(constant_id = AOV_SPEC_PLACE) const uint PLACE = 0u;
 layout(constant_id = AOV_SPEC_MATERIALS) const uint MATERIALS = 0u;
@@ -51,6 +52,12 @@ void set_si(inout AovPoint p)
     p.stores = place_state(patch_number, 2);
     p.state = place_state(patch_number, 3);
     if (p.g.base_normal.y > 0.3) p.stores.y = max(p.stores.y, place_depth(p.position));
+}
+
+float lighting_path(uint model)
+{
+    if (model < push.built_in) return 0.0;
+    return (push.gather[model >> 5 & 7u] >> (model & 31u) & 1u) != 0u ? 1.0 : 2.0;
 }
 
 #define kInfinity uintBitsToFloat(0x7f800000u)  // no constant expression in GLSL

@@ -25,8 +25,11 @@ std::vector<AovGroup> group_aovs(const std::vector<std::size_t>& rows, std::size
 
 void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
               const ConstantsRange& constants, const AovGroup& group, std::size_t buffer,
-              const GBufferParts& parts, bool materials_only)
+              const GBufferParts& parts, const LightingModels& models, bool prepass, bool materials_only)
 {
+    shared::AovPush push{static_cast<std::uint32_t>(built_in_lighting_models().size()), {}};
+    for (std::uint32_t model = 0; prepass && model < models.count(); ++model)
+        if (models.gathers(model)) push.gather[model / 32] |= 1u << model % 32;
     ComputePass pass{
         .name = "aov",
         .shader = "aov.comp",
@@ -39,7 +42,7 @@ void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
                       {AOV_SPEC_MATERIALS, materials_only}},
         .bindings = {{AOV_FRAME, frame_binding(constants)},
                      {AOV_OUTPUT, storage_buffer(*targets.aovs[buffer])}},
-        .push = {},
+        .push = PushBlock(push),
         .groups = groups_over(targets.width, targets.height, AOV_TILE)};
     bind_place(pass.bindings, AOV_PLACE_TABLE, place);
     bind_gbuffer(pass.bindings, AOV_GBUFFER, targets);

@@ -3,6 +3,7 @@
 
 #include "gpu/frame/constants_range.h"
 #include "gpu/frame/targets.h"
+#include "gpu/lighting/lighting_models.h"
 #include "gpu/outputs/aov_table.h"
 #include "gpu/place/gpu_place.h"
 
@@ -20,13 +21,14 @@ std::vector<AovGroup> group_aovs(const std::vector<std::size_t>& rows, std::size
 
 // Labelled outputs from the G-buffer.
 //
+//   prepass          models that can gather light first do
 //   materials_only   no weather is seen; its targets were written for the numbers of the materials
 //
 //   reads    the G-buffer, the states of the patches
 //   writes   aovs[buffer]
 void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
               const ConstantsRange& constants, const AovGroup& group, std::size_t buffer,
-              const GBufferParts& parts, bool materials_only);
+              const GBufferParts& parts, const LightingModels& models, bool prepass, bool materials_only);
 
 /// The numbers of a row, pixel by pixel, as the last frame wrote them.
 std::vector<float> read_aov(const FrameTargets& targets, const std::vector<AovGroup>& groups,

@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_GPU_OUTPUTS_AOV_IO_H
 #define PETRICHOR_GPU_OUTPUTS_AOV_IO_H
 
+#include "base/interop.h"
 #include "gpu/frame/gbuffer_table_io.h"
 
 #define AOV_TILE 8
@@ -14,6 +15,14 @@
 #define AOV_SPEC_HAS_BAKED 4
 #define AOV_SPEC_PLACE 5
 #define AOV_SPEC_MATERIALS 6  // 1: of the weather's targets only the material counts
+
+SHARED_BEGIN
+// How surfaces are lit, by the number of their lighting model.
+struct AovPush {
+    uint built_in;   // models below it are ours
+    uint gather[8];  // a bit a model: its light is gathered before its material is asked
+};
+SHARED_END
 
 #define AOV_FRAME 0
 #define AOV_OUTPUT 1

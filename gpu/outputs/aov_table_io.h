@@ -53,6 +53,10 @@
     ROW(lighting_model, 1, "Y", "1", HALF,                                                      \
         "number of the lighting model, behind them of layers; -1: nothing",                     \
         float(p.g.model), -1.0)                                                             \
+    ROW(lighting_path, 1, "Y", "1", HALF,                                                       \
+        "0 lit from the G-buffer, 1 light gathered before the material is asked (prepass), "    \
+        "2 a model of your own asked light by light (forward); -1: nothing",                    \
+        lighting_path(p.g.model), -1.0)                                                         \
     ROW(material, 1, "Y", "1", FLOAT, "number of the material in the scene; -1: nothing",       \
         float(p.g.material), -1.0)
 

@@ -132,6 +132,19 @@ TEST_F(WeatherOfAFile, ItsGroundRemembersTheSpinUp)
     EXPECT_EQ(source().at(0.0).values.snow_depth_m, 0.0f) << "begun after the snowfall";
 }
 
+TEST_F(WeatherOfAFile, OneRowIsAnHour)
+{
+    write_file(place_ / "january.csv", "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,cloud_fraction\n"
+                                       "2020-01-09T12:00,5.00,95.0,2.0,3.00,1.00\n");
+    const WeatherSource hour = source();
+    EXPECT_DOUBLE_EQ(hour.duration_s, 1.0);
+    for (const double at : {0.0, 0.5, 1.0}) {
+        const weather::Moment moment = hour.at(at);
+        EXPECT_NEAR(moment.values.air_temperature_k, 278.15f, 0.01f) << at;
+        EXPECT_TRUE(std::isfinite(moment.values.surface_temperature_k));
+    }
+}
+
 TEST_F(WeatherOfAFile, WhatCannotBeIsRefused)
 {
     options_.start = "02-01";

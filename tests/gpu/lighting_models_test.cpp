@@ -231,6 +231,53 @@ Light from_above(float lux, float slant)
 
 // The light of a sun (the stronger one) and of a lamp is gathered before the material is asked; by the other path
 // each is answered alone.
+// data/shaders/blinn_phong.glsl against its law, gathered first and light by light.
+TEST_F(LightingModelsTest, BlinnPhongFollowsItsLaw)
+{
+    for (const float roughness : {0.3f, 0.8f}) {
+        Material material = plain_material({0.25f, 0.5f, 0.81f}, roughness, 0.0f);
+        material.lighting_model = PETRICHOR_SOURCE_DIR "/data/shaders/blinn_phong.glsl";
+        const glm::vec3 from_light(0.6f, -0.8f, 0.0f);
+        renderer->load(plate(material, from_light), {});
+        for (const glm::vec3 eye : {glm::vec3(3.2f, 4, 0), glm::vec3(4, 3, 0), glm::vec3(0, 1, -5)}) {
+            Frame frame = lit_plate(eye);
+            frame.settings.aovs = {"lighting_path"};
+            const float nh = glm::normalize(glm::normalize(eye) - from_light).y;
+            const float shine = 0.04f * std::pow(nh, 128.0f * (1.0f - roughness));
+            const glm::vec3 expected = (glm::vec3(0.25f, 0.5f, 0.81f) * 0.8f + shine) / 3.14159265f * kLux;
+            for (const bool prepass : {true, false}) {
+                frame.settings.light_prepass = prepass;
+                const RenderResult result = renderer->render(frame);
+                const glm::vec3 seen = pixel(result, 8, 8);
+                for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 0.015f * expected[c]) << roughness << " " << prepass;
+                EXPECT_EQ(aov(result, "lighting_path", 8, 8), prepass ? 1.0f : 2.0f);
+            }
+        }
+    }
+}
+
+// A picture that tells who is lit from the G-buffer, who gathers light first, who is asked light by light.
+TEST_F(LightingModelsTest, AnOutputTellsThePathsOfLightApart)
+{
+    Material ours = plain_material(glm::vec3(0.5f)), own = ours, gathers = ours;
+    own.lighting_model = kMinnaert;
+    gathers.lighting_model = PETRICHOR_SOURCE_DIR "/data/shaders/toon.glsl";
+    Scene scene = scene_of({quad({-3, 0, 1}, {2, 0, 0}, {0, 0, -2}, 0), quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 1),
+                            quad({1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 2)},
+                           {ours, own, gathers});
+    renderer->load(scene, {});
+    Frame frame = lit_plate({0, 5, 0.01f});
+    frame.camera = look({0, 5, 0.01f}, {0, 0, 0}, 0.9f);
+    frame.settings.width = 60;
+    frame.settings.height = 30;
+    frame.settings.aovs = {"lighting_path", "lighting_model"};
+    const RenderResult result = renderer->render(frame);
+    EXPECT_EQ(aov(result, "lighting_path", 12, 15), 0.0f);
+    EXPECT_EQ(aov(result, "lighting_path", 30, 15), 2.0f);
+    EXPECT_EQ(aov(result, "lighting_path", 48, 15), 1.0f);
+    EXPECT_EQ(aov(result, "lighting_path", 30, 1), -1.0f) << "nothing there";
+}
+
 TEST_F(LightingModelsTest, AModelThatGathersIsComposedOnce)
 {
     Material material = plain_material(glm::vec3(0.25f), 0.9f);
