@@ -10,11 +10,11 @@ namespace petrichor::texproc::detail {
 
 /// Fits normals and roughness of a chain, texel by texel, to what pixels should show: the filter of
 /// an engine and one shading a pixel against the mean light of what the pixel covers, in thousands
-/// of views drawn from a seed (every direction and height of the eye, sizes between the levels, one
-/// tap and up to 16; eight lights each: suns ahead, beside and behind, a window, metal under the
-/// sun; of metal, 16 views about one direction are a picture with one exposure). Each pixel is seen
-/// twice, from places less than a pixel apart, and what changes between them counts once more: it
-/// flickers.
+/// of views drawn from a seed (every direction and height of the eye, low ones more often where two
+/// lobes are fitted to anything but metal; sizes between the levels, one tap and up to 16; eight lights
+/// each: suns ahead, beside and behind, a window, metal under the sun; of metal, 16 views about one
+/// direction are a picture with one exposure). Each pixel is seen twice, from places less than a pixel
+/// apart, and what changes between them counts once more: it flickers.
 ///
 /// Levels of more than 256 x 256 texels stay, as those below 8 texels do; so does the share of the
 /// base colour of paint, with which the pictures are taken, where there is one lobe, or it is not written
