@@ -9,6 +9,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "base/error.h"
+#include "formulas/color/tone_map.h"
 #include "tests/support/color_config.h"
 #include "tests/support/program.h"
 
@@ -100,6 +101,33 @@ TEST_F(DisplayTransforms, AMatrixMixesTheChannelsBeforeTheCurve)
         EXPECT_NEAR(codes[4 * i + 1], code(std::sqrt(g * 0.5)), 1);
         EXPECT_NEAR(codes[4 * i + 2], code(std::sqrt(g * 0.25)), 1);
     }
+}
+
+TEST_F(DisplayTransforms, TheLibrarysAcesIsNearOurFit)
+{
+    write_file(place_ / "aces.ocio", aces_config());
+    const DisplayTransform aces = made({.config = "aces.ocio"});
+    EXPECT_EQ(aces.view(), "ACES 1.0 SDR");
+    EXPECT_EQ(aces.scene_space(), "Linear Rec.709 (sRGB)");
+    for (const glm::vec3 tint : {glm::vec3(1.0f), glm::vec3(1.0f, 0.5f, 0.25f), glm::vec3(0.25f, 0.5f, 1.0f)}) {
+        const auto greys = ramp();
+        const auto codes = aces.picture(light_of(greys, tint), 3, false);
+        for (std::size_t i = 0; i < greys.size(); ++i) {
+            const glm::vec3 ours = shared::display_light(TONE_MAP_ACES, greys[i] * tint);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(codes[4 * i + static_cast<std::size_t>(c)], code(static_cast<double>(shared::srgb_encode(ours[c]))), 8)
+                    << greys[i] << " of " << tint[0] << ", channel " << c;
+        }
+    }
+}
+
+TEST_F(DisplayTransforms, OldConfigsAreReadToo)
+{
+    write_file(place_ / "old.ocio", old_config());
+    const DisplayTransform old = made({.config = "old.ocio"});
+    EXPECT_EQ(old.view(), "Film");
+    EXPECT_EQ(old.scene_space(), "linear");
+    EXPECT_NEAR(old.picture(light_of({0.5f}), 1, false)[0], code(std::pow(0.5, 1.0 / 1.8)), 1);
 }
 
 TEST_F(DisplayTransforms, DitherIsHalfAStepAroundTheValue)

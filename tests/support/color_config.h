@@ -48,6 +48,91 @@ colorspaces:
 )";
 }
 
+/// ACES 1.0 by transforms that the library brings along, with views of scene light and spaces of displays, as such
+/// configs have them.
+inline std::string aces_config()
+{
+    return R"(ocio_profile_version: 2
+roles:
+  default: raw
+  scene_linear: ACEScg
+  aces_interchange: ACES2065-1
+  cie_xyz_d65_interchange: CIE-XYZ-D65
+file_rules:
+  - !<Rule> {name: Default, colorspace: default}
+shared_views:
+  - !<View> {name: ACES 1.0 SDR, view_transform: SDR, display_colorspace: <USE_DISPLAY_NAME>}
+  - !<View> {name: Un-tone-mapped, view_transform: Plain, display_colorspace: <USE_DISPLAY_NAME>}
+displays:
+  sRGB:
+    - !<Views> [ACES 1.0 SDR, Un-tone-mapped]
+    - !<View> {name: Raw, colorspace: raw}
+  Rec.1886:
+    - !<Views> [ACES 1.0 SDR, Un-tone-mapped]
+active_views: [ACES 1.0 SDR, Un-tone-mapped, Raw]
+view_transforms:
+  - !<ViewTransform>
+    name: Plain
+    from_scene_reference: !<BuiltinTransform> {style: UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD}
+  - !<ViewTransform>
+    name: SDR
+    from_scene_reference: !<BuiltinTransform> {style: ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0}
+display_colorspaces:
+  - !<ColorSpace> {name: CIE-XYZ-D65}
+  - !<ColorSpace>
+    name: sRGB
+    from_display_reference: !<BuiltinTransform> {style: DISPLAY - CIE-XYZ-D65_to_sRGB}
+  - !<ColorSpace>
+    name: Rec.1886
+    from_display_reference: !<BuiltinTransform> {style: DISPLAY - CIE-XYZ-D65_to_REC.1886-REC.709}
+colorspaces:
+  - !<ColorSpace> {name: ACES2065-1}
+  - !<ColorSpace>
+    name: ACEScg
+    to_scene_reference: !<BuiltinTransform> {style: ACEScg_to_ACES2065-1}
+  - !<ColorSpace>
+    name: Linear Rec.709 (sRGB)
+    aliases: [lin_rec709_srgb]
+    from_scene_reference: !<GroupTransform>
+      children:
+        - !<BuiltinTransform> {style: UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD}
+        - !<MatrixTransform> {matrix: [3.2404542, -1.5371385, -0.4985314, 0, -0.9692660, 1.8760108, 0.0415560, 0, 0.0556434, -0.2040259, 1.0572252, 0, 0, 0, 0, 1]}
+  - !<ColorSpace> {name: raw, isdata: true}
+)";
+}
+
+/// A config as version 1 of the library wrote them: the view's space is scene light to the power 1 / 1.8.
+inline std::string old_config()
+{
+    return R"(ocio_profile_version: 1
+search_path: luts
+strictparsing: true
+luma: [0.2126, 0.7152, 0.0722]
+roles:
+  default: raw
+  scene_linear: linear
+displays:
+  sRGB:
+    - !<View> {name: Film, colorspace: film}
+active_displays: [sRGB]
+active_views: [Film]
+colorspaces:
+  - !<ColorSpace>
+    name: linear
+    family: ""
+    equalitygroup: ""
+    bitdepth: 32f
+    isdata: false
+    allocation: lg2
+    allocationvars: [-15, 6]
+  - !<ColorSpace>
+    name: film
+    bitdepth: 8ui
+    from_reference: !<ExponentTransform> {value: [1.8, 1.8, 1.8, 1], direction: inverse}
+  - !<ColorSpace> {name: raw, isdata: true}
+)";
+}
+
 /// A table that scales 0..1 by `top`, "0.5".
 inline std::string half_table(const std::string& top = "0.5")
 {
