@@ -163,7 +163,7 @@ DisplayTransform::DisplayTransform(const ColorManagement& asked, const fs::path&
         }
         const ocio::ConstContextRcPtr context = config->getCurrentContext();
         const ocio::ConstProcessorRcPtr whole = pipeline->getProcessor(config, context);
-        // Without the library's fast powers and logarithms, which differ between processors.
+        // Rounding powers and logarithms, as the library does by default, gains nothing.
         processor_ = std::make_shared<Processor>(Processor{whole->getOptimizedCPUProcessor(
             ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_LOSSLESS)});
 

@@ -114,9 +114,11 @@ TEST_F(DisplayTransforms, TheLibrarysAcesIsNearOurFit)
         const auto codes = aces.picture(light_of(greys, tint), 3, false);
         for (std::size_t i = 0; i < greys.size(); ++i) {
             const glm::vec3 ours = shared::display_light(TONE_MAP_ACES, greys[i] * tint);
-            for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(codes[4 * i + static_cast<std::size_t>(c)], code(static_cast<double>(shared::srgb_encode(ours[c]))), 8)
+            for (int c = 0; c < 3; ++c) {
+                const int fit = code(static_cast<double>(shared::srgb_encode(ours[c])));
+                EXPECT_NEAR(codes[4 * i + static_cast<std::size_t>(c)], fit, 8)
                     << greys[i] << " of " << tint[0] << ", channel " << c;
+            }
         }
     }
 }

@@ -31,8 +31,8 @@ std::vector<Rule> render_rules()
                                                : gpu::ToneMap::Linear;
          }},
         {{"render", "ocio_config", "\"config.ocio\"",
-          "the PNG and the film by a view of this OpenColorIO config, relative to this file, in place of tone_map (an ocio:// "
-          "name where the library knows it); the EXR stays linear"},
+          "the PNG and the film by a view of this OpenColorIO config, relative to this file, in place of "
+          "tone_map; the EXR stays linear"},
          [](Scenario& s, const TomlValue& v) { s.render.color.config = v.text(); }},
         {{"render", "ocio_display", "\"sRGB\"", "of the config; without it the config's default"},
          [](Scenario& s, const TomlValue& v) { s.render.color.display = v.text(); }},
