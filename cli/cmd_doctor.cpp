@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/rooms.h"
+#include "film/color/display_transform.h"
 #include "film/data/folders.h"
 #include "film/frames/film.h"
 #include "film/weather/packed.h"
@@ -198,12 +199,21 @@ Finding check_astc()
             "Install libastcenc-dev and build again."};
 }
 
+Finding check_color_management()
+{
+    const bool works = film::has_color_management();
+    return {"OpenColorIO configs", works, false,
+            works ? "read, by the library " + film::color_management_version() : "refused: pictures have our own curves",
+            "Install libopencolorio-dev and build again."};
+}
+
 void doctor(bool json)
 {
     const auto devices = gpu::list_devices();
     const std::vector<Finding> findings{check_devices(devices), check_data(), check_ffmpeg(),
                                         check_decoder(), check_cache(),
-                                        check_shaders(), check_draco(), check_astc()};
+                                        check_shaders(), check_draco(), check_astc(),
+                                        check_color_management()};
     bool can_render = true;
     for (const Finding& one : findings) can_render = can_render && (one.works || !one.needed);
     if (json) {

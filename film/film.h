@@ -17,9 +17,13 @@
 //   const film::SequenceFrame noon = film::frame_at(sequence, {12, "snow", "left"});
 //   noon.frame.weather.snow_depth_m;  noon.moment.utc_us;
 //
+// Where [render] names an OpenColorIO config, such a frame is rendered into exposed light, and show()
+// (film/color/shown_picture.h) makes the display's codes of it with Sequence::display.
+//
 // Nothing is printed: notes of what was read, guessed and filled are in SequenceVariant::weather
 // and RenderReport. Errors are Error (base/error.h).
 
+#include "film/color/shown_picture.h"
 #include "film/jobs/render_job.h"
 #include "film/jobs/scene_source.h"
 #include "film/jobs/sequence.h"

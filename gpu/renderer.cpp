@@ -239,6 +239,8 @@ struct Renderer::Impl {
         }
         const auto pixels =
             static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);
+        if (s.exposed_light && targets.display->size < pixels * 8)
+            targets.display = set.arena->buffer({.name = "display", .size = pixels * 8, .host = true});
         for (std::size_t i = 0; i < aov_groups.size(); ++i) {
             const VkDeviceSize size = aov_groups[i].numbers * pixels * sizeof(float);
             if (i >= targets.aovs.size()) targets.aovs.emplace_back();
@@ -560,9 +562,14 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     const auto pixels =
         static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
     const auto* beauty = reinterpret_cast<const std::uint16_t*>(set.targets.beauty->mapped);
-    const auto* display = reinterpret_cast<const std::uint8_t*>(set.targets.display->mapped);
     result.beauty.assign(beauty, beauty + pixels * 4);
-    result.display.assign(display, display + pixels * 4);
+    if (frame.settings.exposed_light) {
+        const auto* exposed = reinterpret_cast<const std::uint16_t*>(set.targets.display->mapped);
+        result.exposed.assign(exposed, exposed + pixels * 4);
+    } else {
+        const auto* display = reinterpret_cast<const std::uint8_t*>(set.targets.display->mapped);
+        result.display.assign(display, display + pixels * 4);
+    }
     shared::SkyLight light{};
     std::memcpy(&light, sky.light->mapped, sizeof(light));
     result.exposure = light.exposure;

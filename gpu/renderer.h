@@ -34,7 +34,10 @@ struct RenderResult {
     int width = 0;
     int height = 0;
     std::vector<std::uint16_t> beauty;  ///< RGBA half bits, linear, unexposed (scene-referred)
-    std::vector<std::uint8_t> display;  ///< RGBA8 sRGB, exposed and tone mapped
+    std::vector<std::uint8_t> display;  ///< RGBA8 sRGB, exposed and tone mapped; empty with exposed_light
+    /// With FrameSettings::exposed_light: RGBA half bits, linear, as the lens shows it (glare, drops), white balanced and
+    /// exposed, at most 65504; alpha 1.
+    std::vector<std::uint16_t> exposed;
     float exposure = 1.0f;              ///< the scale that display used
     std::vector<AovImage> aovs;
     FallingFacts falling;

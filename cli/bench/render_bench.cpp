@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "cli/bench/peers.h"
 #include "cli/render/scenario_input.h"
 #include "cli/rooms.h"
+#include "film/color/shown_picture.h"
 #include "film/jobs/camera.h"
 #include "film/jobs/exposure.h"
 #include "film/jobs/render_job.h"
@@ -105,11 +107,21 @@ gpu::Frame bench_frame(const scene::Scene& scene, const RenderBenchOptions& opti
     return frame;
 }
 
-FrameCost timed_render(gpu::Renderer& renderer, const gpu::Frame& frame, gpu::RenderResult& result)
+struct Workload {
+    gpu::Renderer renderer;
+    gpu::Frame frame;
+    std::optional<gpu::Frame> other = {};  // drawn before it each time
+    std::shared_ptr<const DisplayTransform> display = {};
+};
+
+FrameCost timed_render(Workload& work, gpu::RenderResult& result)
 {
     FrameCost frame_cost;
     result = {};  // or two pictures were there at a time
-    frame_cost.cost = timed([&] { result = renderer.render(frame); });
+    frame_cost.cost = timed([&] {
+        result = work.renderer.render(work.frame);
+        show(result, work.display.get(), work.frame.settings.dither);
+    });
     frame_cost.passes = result.passes;
     frame_cost.patch_light_cpu_ms = result.patch_light_cpu_ms;
     return frame_cost;
@@ -204,12 +216,6 @@ std::vector<PeerRow> peers_of(const RenderBenchOptions& options, const gpu::Rend
 namespace {
 
 // A renderer with its scene, and the frame to be timed.
-struct Workload {
-    gpu::Renderer renderer;
-    gpu::Frame frame;
-    std::optional<gpu::Frame> other = {};  // drawn before it each time
-};
-
 Workload plain_workload(const RenderBenchOptions& options)
 {
     const ImageSize size = parse_size(options.size.empty() ? "1280x720" : options.size);
@@ -266,6 +272,7 @@ Workload scenario_workload(const RenderBenchOptions& options)
     };
     gpu::Frame frame = frame_of(job);
     Workload work{sequence_renderer(sequence, request, report), std::move(frame)};
+    work.display = sequence.display;
     set_environment_of(work.renderer, sequence, job);
     // As `render` exposes it: how far lamps reach depends on it.
     Meter meter(sequence);
@@ -290,13 +297,13 @@ void run_render_bench(const RenderBenchOptions& options)
     if (options.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     Workload work = options.scene.empty() ? scenario_workload(options) : plain_workload(options);
     gpu::RenderResult result;
-    timed_render(work.renderer, work.frame, result);  // warm-up: shaders are compiled on first use
+    timed_render(work, result);  // warm-up: shaders are compiled on first use
     std::vector<FrameCost> costs;
     for (int i = 0; i < options.repeat; ++i) {
         // Another light for the solver, the same for the eye.
         if (options.relight) work.frame.emissive_scale += 1e-6f;
         if (work.other) work.renderer.render(*work.other);
-        costs.push_back(timed_render(work.renderer, work.frame, result));
+        costs.push_back(timed_render(work, result));
     }
     if (!options.picture.empty()) {
         texproc::write_png8(options.picture, result.width, result.height, 4, result.display);

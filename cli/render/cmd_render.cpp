@@ -308,6 +308,9 @@ void render(const RenderOptions& options)
     Sequence sequence = make_sequence(std::move(asked));
     const Scenario& scenario = sequence.scenario;
     report_weather(sequence);
+    if (sequence.display) {
+        for (const std::string& note : sequence.display->notes()) std::cerr << "info color: " << note << "\n";
+    }
 
     request.range = {0, scenario.output.frames - 1};
     if (!options.frames.empty())

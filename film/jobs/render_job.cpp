@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/ordered_work.h"
 #include "base/words.h"
+#include "film/color/shown_picture.h"
 #include "film/data/folders.h"
 #include "film/frames/film.h"
 #include "film/frames/frame_writer.h"
@@ -231,6 +232,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
             }
             worker.facts.exposure_by = meter.expose(worker.renderer, one.job, worker.what.frame);
             worker.result = worker.renderer.render(worker.what.frame);
+            show(worker.result, sequence.display.get(), worker.what.frame.settings.dither);
         };
         work.finish = [&](std::size_t number, std::size_t i) {
             Worker& worker = workers[number];

@@ -294,6 +294,8 @@ Sequence make_sequence(Scenario scenario)
         variant.air =
             AirTravel(wind, output.start_s, sequence.duration_s, output.frames / output.fps);
     }
+    if (!s.render.color.config.empty())
+        sequence.display = std::make_shared<DisplayTransform>(s.render.color, s.folder);
     sequence.views = s.views;
     if (sequence.views.empty()) sequence.views.push_back({"", s.camera});
     return sequence;
@@ -436,6 +438,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.lamp_shadows = scenario.render.lamp_shadows;
     settings.transparent_layers = scenario.render.transparent_layers;
     settings.tone_map = scenario.render.tone_map;
+    settings.exposed_light = sequence.display != nullptr;
     settings.white_balance_k = narrow(value_at(camera.white_balance_k, time_s, 0.0));
     settings.white_share = narrow(value_at(camera.white_balance_strength, time_s, kWhiteShare));
     settings.bloom = narrow(value_at(camera.bloom, time_s, kBloom));
@@ -508,6 +511,7 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     parts["scene files"] = sequence.content;
     if (!sequence.lighting_models.empty()) parts["lighting models"] = sequence.lighting_models;
     if (!what.environment.empty()) parts["sky picture"] = what.environment;
+    if (sequence.display) parts["color management"] = sequence.display->fingerprint();
     if (!sequence.weather_textures.empty()) parts["weather textures"] = sequence.weather_textures;
     if (!scenario.materials.empty()) {
         parts["materials"] = part([&](Hasher& hasher) {

@@ -2,6 +2,7 @@
 #define PETRICHOR_FILM_JOBS_SEQUENCE_H
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,7 @@ struct Sequence {
     double duration_s = 0.0;      ///< frame 0 to one after the last, on the scenario's clock
     std::string content;          ///< fingerprint of the scene's files
     std::string lighting_models;  ///< of the scene's own ones, own_models_fingerprint()
+    std::shared_ptr<const DisplayTransform> display = {};  ///< of [render] ocio_config; null: curves of our own
     std::string weather_textures;  ///< of [render]'s, weather_textures_fingerprint()
     std::size_t triangles = 0;     ///< of all instances
     std::vector<glm::vec3> eyes_m = {};  ///< eyes_of(), once the scene is loaded
@@ -62,7 +64,8 @@ struct Sequence {
 };
 
 /// A sequence without its scene: weather of every variant, views, duration (the scenario's, else of
-/// the longest weather, else as long as the film). Throws Error as weather_source.
+/// the longest weather, else as long as the film), colour management. Throws Error as weather_source and
+/// DisplayTransform.
 Sequence make_sequence(Scenario scenario);
 
 /// Scenes of more triangles are lit by patches only when the scenario asks for it: that takes minutes,

@@ -152,6 +152,25 @@ void check_fog(const ScenarioFog& fog, const TomlValue& value)
     }
 }
 
+// A config takes the place of our curves; without it there is nothing to choose from.
+void check_color(const ScenarioRender& render, const TomlValue& value, const toml::table& table)
+{
+    if (!render.color.config.empty()) {
+        if (table.contains("tone_map")) {
+            throw Error(value.place() + ": render has ocio_config and also tone_map",
+                        "Give one of them: a config's view has a curve of its own.");
+        }
+        if (render.gamma) {
+            throw Error(value.place() + ": render has ocio_config and color_space = \"gamma\", whose sums are not light",
+                        "Leave one of them out.");
+        }
+    } else if (render.color != ColorManagement{}) {
+        throw Error(value.place() + ": render chooses of an OpenColorIO config (ocio_display, ocio_view, ocio_scene_space or "
+                                    "ocio_look) and has none",
+                    "Name it by ocio_config, for example ocio_config = \"config.ocio\".");
+    }
+}
+
 void read_table(Scenario& scenario, const std::string& table, const toml::node& node,
                 const TomlValue& value)
 {
@@ -175,6 +194,7 @@ void read_table(Scenario& scenario, const std::string& table, const toml::node& 
     } else {
         read_rules(scenario, table, value);
         if (table == "fog") check_fog(scenario.fog, value);
+        if (table == "render") check_color(scenario.render, value, *node.as_table());
         if (table == "sun") check_sun(scenario.sun, value, *node.as_table());
     }
 }

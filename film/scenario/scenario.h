@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "film/color/display_transform.h"
 #include "film/scenario/site_options.h"
 #include "film/scenario/weather_script.h"
 #include "film/toml/keyed.h"
@@ -192,6 +193,7 @@ struct ScenarioRender : gpu::FrameSwitches {
     int lamp_shadows = 4;
     int transparent_layers = 4;
     gpu::ToneMap tone_map = gpu::ToneMap::Filmic;
+    ColorManagement color;  ///< in place of tone_map, where it has a config
     WeatherTextures weather_textures;  ///< relative to the scenario
     int falling_budget = 20000;
     double falling_density = 1.0;

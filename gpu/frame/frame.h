@@ -131,6 +131,7 @@ struct FrameSettings : FrameSwitches {
     int lamp_shadows =
         4;  ///< so many lamps throw shadows, 0 to 16: the brightest as the eye sees them
     ToneMap tone_map = ToneMap::Filmic;
+    bool exposed_light = false;  ///< what the display is made of is handed over in place of it, for curves of the host
     float white_balance_k = 0.0f;  ///< light of this temperature is white; 0: as it is
     glm::vec3 white_light{0.0f};   ///< if not black, light of this colour (linear, luminance 1) is white instead ..
     float white_share = 1.0f;      ///< .. by this share of its cast, 0..1

@@ -76,7 +76,7 @@ struct FrameTargets {
     TileList open_tiles;     ///< that show none somewhere
     std::unique_ptr<GpuBuffer> patch_points;       ///< gpu/frame/patch_points_io.h
     std::unique_ptr<GpuBuffer> beauty;             ///< RGBA half bits, read by the host
-    std::unique_ptr<GpuBuffer> display;            ///< RGBA8, read by the host
+    std::unique_ptr<GpuBuffer> display;            ///< RGBA8, or half bits of exposed light; read by the host
     std::vector<std::unique_ptr<GpuBuffer>> aovs;  ///< read by the host; gpu/outputs/aov.h
 
     /// Which of WEATHER_.. a pass reads in a frame that keeps some.

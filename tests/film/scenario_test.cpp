@@ -232,7 +232,8 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
         const std::string table = by_name ? key.table + ".\"*\"" : key.table;
         const std::string head =
             "[" + table + "]\n" + (key.name == "cookie_size_m" ? "cookie = \"leaves.png\"\n" : "") +
-                                 (key.name == "white_balance_strength" ? "white_balance_k = \"auto\"\n" : "");
+                                 (key.name == "white_balance_strength" ? "white_balance_k = \"auto\"\n" : "") +
+                                 (key.name.starts_with("ocio_") && key.name != "ocio_config" ? "ocio_config = \"c.ocio\"\n" : "");
         std::string text = head + key.name + " = " + key.example + "\n";
         if (key.name == "position_m") text += "look_at_m = [0, 0, 0]\n";
         if (key.name == "look_at_m") text += "position_m = [0, 0, 0]\n";

@@ -1,7 +1,10 @@
 // What the display sees of a picture: glare, white balance, curves; and what veils the sky.
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
+#include "formulas/color/tone_map.h"
+#include "formulas/noise/noise.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {
@@ -144,6 +147,45 @@ TEST_F(PictureTest, CurvesAndWhiteBalanceChangeTheDisplayAlone)
     const RenderResult cold = renderer->render(frame);
     EXPECT_EQ(cold.beauty, plain.beauty);
     EXPECT_GT(byte_at(cold, 64, 48, 2), byte_at(cold, 64, 48, 0) + 40) << "white under lamplight";
+}
+
+// What a curve of the host is given: through our own curve it is our picture.
+TEST_F(PictureTest, ExposedLightIsWhatTheDisplayIsMadeOf)
+{
+    renderer->load(plate(3.0f), {});
+    Frame frame = dark_plate();
+    frame.settings.tone_map = ToneMap::Agx;
+    frame.settings.bloom = 0.4f;
+    frame.settings.white_balance_k = 4500.0f;
+    frame.settings.exposure = 0.7f;
+    const RenderResult shown = renderer->render(frame);
+    frame.settings.exposed_light = true;
+    const RenderResult handed = renderer->render(frame);
+    EXPECT_EQ(shown.beauty, handed.beauty);
+    EXPECT_TRUE(shown.exposed.empty());
+    EXPECT_TRUE(handed.display.empty());
+    ASSERT_EQ(handed.exposed.size(), shown.display.size());
+    int most = 0;
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 128; ++x) {
+            const std::size_t at = 4 * (static_cast<std::size_t>(y) * 128 + static_cast<std::size_t>(x));
+            const glm::vec3 light(glm::unpackHalf1x16(handed.exposed[at]), glm::unpackHalf1x16(handed.exposed[at + 1]),
+                                  glm::unpackHalf1x16(handed.exposed[at + 2]));
+            EXPECT_EQ(handed.exposed[at + 3], 0x3c00);
+            const glm::vec3 mapped = shared::agx(light);
+            for (int c = 0; c < 3; ++c) {
+                const float code = shared::srgb_encode(mapped[c]) * 255.0f + 0.5f + shared::dither({x, y}, 0u) - 0.5f;
+                most = std::max(most, std::abs(static_cast<int>(code) - byte_at(shown, x, y, c)));
+            }
+        }
+    }
+    EXPECT_LE(most, 1);
+    frame.settings.exposed_light = false;
+    EXPECT_EQ(renderer->render(frame).display, shown.display) << "and the next frame has its display again";
+    frame.settings.exposed_light = true;
+    frame.settings.exposure = 1e6f;
+    const RenderResult glaring = renderer->render(frame);
+    EXPECT_EQ(*std::max_element(glaring.exposed.begin(), glaring.exposed.end()), 0x7bff) << "65504, not infinite";
 }
 
 // Level land, looked at level: the horizon runs through the middle of the picture.

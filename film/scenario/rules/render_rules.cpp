@@ -30,6 +30,20 @@ std::vector<Rule> render_rules()
                                  : v.boolean() ? gpu::ToneMap::Filmic
                                                : gpu::ToneMap::Linear;
          }},
+        {{"render", "ocio_config", "\"config.ocio\"",
+          "the PNG and the film by a view of this OpenColorIO config, relative to this file, in place of "
+          "tone_map; the EXR stays linear"},
+         [](Scenario& s, const TomlValue& v) { s.render.color.config = v.text(); }},
+        {{"render", "ocio_display", "\"sRGB\"", "of the config; without it the config's default"},
+         [](Scenario& s, const TomlValue& v) { s.render.color.display = v.text(); }},
+        {{"render", "ocio_view", "\"Film\"", "of that display; without it the display's default"},
+         [](Scenario& s, const TomlValue& v) { s.render.color.view = v.text(); }},
+        {{"render", "ocio_scene_space", "\"scene_linear\"",
+          "the space or role of the config that our light is in, linear Rec. 709; without it one that is known by its "
+          "name, else scene_linear"},
+         [](Scenario& s, const TomlValue& v) { s.render.color.scene_space = v.text(); }},
+        {{"render", "ocio_look", "\"Golden Hour\"", "of the config, in place of the view's own looks"},
+         [](Scenario& s, const TomlValue& v) { s.render.color.look = v.text(); }},
         {{"render", "ripple_texture_size", "512",
           "texels a side of the map of rings that rain draws: 64, 128 .. 4096"},
          [](Scenario& s, const TomlValue& v) {

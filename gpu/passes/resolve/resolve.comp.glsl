@@ -18,6 +18,7 @@ layout(local_size_x = RESOLVE_TILE, local_size_y = RESOLVE_TILE) in;
 layout(constant_id = RESOLVE_SPEC_TONE_MAP) const int TONE_MAP = TONE_MAP_FILMIC;
 layout(constant_id = RESOLVE_SPEC_BLOOM) const uint BLOOM = 0u;
 layout(constant_id = RESOLVE_SPEC_WET_LENS) const uint WET_LENS = 0u;
+layout(constant_id = RESOLVE_SPEC_EXPOSED_LIGHT) const uint EXPOSED_LIGHT = 0u;
 layout(binding = RESOLVE_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = RESOLVE_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
 layout(binding = RESOLVE_ACCUMULATED, rgba32f) uniform readonly image2D accumulated;
@@ -61,6 +62,12 @@ void main()
         seen = max(white_balanced(seen, frame.white_gains), vec3(0.0));
     }
     const vec3 exposed = seen * sky_light.exposure;
+    if (EXPOSED_LIGHT != 0u) {  // the host has a curve of its own
+        const vec3 light = min(exposed, vec3(65504.0));
+        display[2 * index] = half_codes(light.r, light.g);
+        display[2 * index + 1] = half_codes(light.b, 1.0);
+        return;
+    }
     // Codes are shown as they are.
     const bool gamma = (frame.flags & FRAME_GAMMA) != 0u;
     const vec3 mapped = display_light(TONE_MAP, exposed);

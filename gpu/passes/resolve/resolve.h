@@ -7,8 +7,8 @@
 
 namespace petrichor::gpu {
 
-// Mean of the samples, as halves and as display bytes; both are read by the host, as is the
-// exposure.
+// Mean of the samples, as halves and as display bytes (or the light that those are made of); both are
+// read by the host, as is the exposure.
 //
 //   reads    accumulated, glare, sky_light
 //   writes   beauty, display

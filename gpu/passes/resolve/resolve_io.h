@@ -15,5 +15,6 @@
 #define RESOLVE_SPEC_BLOOM 1
 #define RESOLVE_SPEC_WET_LENS 2
 #define RESOLVE_SPEC_FILTERS 3  // as GLARE_SPEC_FILTERS
+#define RESOLVE_SPEC_EXPOSED_LIGHT 4  // the display takes halves of light, two words a pixel
 
 #endif
