@@ -10,6 +10,7 @@
 
 #include "formulas/color/srgb.h"
 #include "formulas/noise/noise.h"
+#include "scene/subdivide/subdivide.h"
 #include "texproc/codecs/files/io.h"
 #include "texproc/generate/generate.h"
 
@@ -258,35 +259,29 @@ float stains(const vec2& at, float around)
     return std::clamp(tone, 0.6f, 1.4f);
 }
 
-// A vertex in the middle of two.
-std::uint32_t half_way(scene::Primitive& disc, std::uint32_t a, std::uint32_t b)
+// The ground without what of it is hidden, as far as some halvings of its sides tell that. A side is halved for both of its
+// triangles: corners of one within a side of the other would be the ends of snow.
+scene::Primitive seen_part(scene::Primitive disc, const HiddenGround& hidden)
 {
-    disc.positions.push_back(0.5f * (disc.positions[a] + disc.positions[b]));
-    disc.normals.push_back(disc.normals[a]);
-    disc.tangents.push_back(disc.tangents[a]);
-    disc.uv0.push_back(0.5f * (disc.uv0[a] + disc.uv0[b]));
-    disc.colors.push_back(0.5f * (disc.colors[a] + disc.colors[b]));
-    return static_cast<std::uint32_t>(disc.positions.size() - 1);
-}
-
-// A triangle of the ground without what of it is hidden, as far as some halvings of its sides tell that.
-void lay_seen(scene::Primitive& disc, const HiddenGround& hidden, const std::array<std::uint32_t, 3>& t, int halvings)
-{
-    const std::array<vec3, 3> p{disc.positions[t[0]], disc.positions[t[1]], disc.positions[t[2]]};
-    int count = 0;
-    for (const vec3& at : {p[0], p[1], p[2], 0.5f * (p[0] + p[1]), 0.5f * (p[1] + p[2]), 0.5f * (p[2] + p[0])})
-        count += hidden.at(at) ? 1 : 0;
-    if (count == 6) return;
-    if (count == 0 || halvings == 0) {
-        disc.indices.insert(disc.indices.end(), t.begin(), t.end());
-        return;
+    scene::SubdivideOptions halvings;
+    halvings.most_levels = kHalvings;
+    halvings.too_long = [&](const vec3& a, const vec3& b) {
+        const bool from = hidden.at(a);
+        return hidden.at(b) != from || hidden.at(0.5f * (a + b)) != from;
+    };
+    scene::CutMesh mesh = scene::subdivide({std::move(disc)}, halvings);
+    scene::Primitive& cut = mesh.primitives.front();
+    std::vector<std::uint32_t> seen;
+    for (std::size_t k = 0; k + 2 < cut.indices.size(); k += 3) {
+        const std::array<std::uint32_t, 3> t{cut.indices[k], cut.indices[k + 1], cut.indices[k + 2]};
+        const std::array<vec3, 3> p{cut.positions[t[0]], cut.positions[t[1]], cut.positions[t[2]]};
+        bool all = true;
+        for (const vec3& at : {p[0], p[1], p[2], 0.5f * (p[0] + p[1]), 0.5f * (p[1] + p[2]), 0.5f * (p[2] + p[0])})
+            all = all && hidden.at(at);
+        if (!all) seen.insert(seen.end(), t.begin(), t.end());
     }
-    const std::uint32_t ab = half_way(disc, t[0], t[1]), bc = half_way(disc, t[1], t[2]),
-                        ca = half_way(disc, t[2], t[0]);
-    lay_seen(disc, hidden, {t[0], ab, ca}, halvings - 1);
-    lay_seen(disc, hidden, {ab, t[1], bc}, halvings - 1);
-    lay_seen(disc, hidden, {ca, bc, t[2]}, halvings - 1);
-    lay_seen(disc, hidden, {ab, bc, ca}, halvings - 1);
+    cut.indices = std::move(seen);
+    return std::move(cut);
 }
 
 }  // namespace
@@ -345,10 +340,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
         return static_cast<std::uint32_t>(1 + ring * kSegments +
                                           static_cast<std::size_t>(s % kSegments));
     };
-    const HiddenGround hidden(scene, content, centre.y, kClose * around);
-    const auto lay = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        lay_seen(disc, hidden, {a, b, c}, kHalvings);
-    };
+    const auto lay = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { disc.indices.insert(disc.indices.end(), {a, b, c}); };
     for (int s = 0; s < kSegments; ++s) {
         lay(0u, at(0, s + 1), at(0, s));
         for (std::size_t ring = 0; ring + 1 < std::size(rings); ++ring) {
@@ -356,6 +348,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
             lay(at(ring, s + 1), at(ring + 1, s + 1), at(ring + 1, s));
         }
     }
+    disc = seen_part(std::move(disc), HiddenGround(scene, content, centre.y, kClose * around));
     scene::Instance instance;
     instance.name = "default ground";
     instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());

@@ -32,6 +32,9 @@ constexpr float kCoarser = 1.41421356f;
 constexpr int kTries = 12;
 constexpr float kAlong = 5.0f;        // times finer across an edge than along it
 constexpr float kAlong_m = 0.2f;
+constexpr float kAlongSmall_m = 0.055f;  // .. on a small model, whose pads of snow bend along them too
+constexpr float kRoomy = 0.7f;        // edges are so long, a metre from a rim ..
+constexpr float kRoomySmall = 0.35f;  // .. on a small model
 constexpr float kTrack_m = 0.05f;     // edges where the snow is trodden
 
 // Whether tracks cross an edge.
@@ -135,6 +138,9 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     fine.most_levels = 8;
     fine.most_triangles = own + options.most_triangles;
     const std::vector<Primitive> looked = std::move(mesh.primitives);
+    const float small = detail::small_model(tracer);
+    const float roomy_share = glm::mix(kRoomy, kRoomySmall, small);
+    const float along_m = glm::mix(kAlong_m, kAlongSmall_m, small);
     fine.too_long = [&](const vec3& a, const vec3& b) {
         stops.ask_sometimes();
         const vec3 middle = 0.5f * (a + b);
@@ -153,11 +159,11 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         // A shoulder bends across its edge, and hardly along it.
         const auto bends = [&](const NearEdge& edge) {
             if (edge.border == nullptr) return false;
-            const float roomy = 0.7f * edge.distance_m;
+            const float roomy = roomy_share * edge.distance_m;
             if (length <= std::max(least, roomy)) return false;
             const float across = std::abs(glm::dot(vec2(along.x, along.z), edge.border->out));
             const float beside = std::sqrt(std::max(length * length - across * across, 0.0f));
-            return across > std::max(least, roomy) || beside > std::max({kAlong * least, kAlong_m, roomy});
+            return across > std::max(least, roomy) || beside > std::max({kAlong * least, along_m, roomy});
         };
         return bends(edges.nearest(middle, normal / size)) || bends(slots.nearest(middle, normal / size));
     };

@@ -9,7 +9,7 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x68706163;  // "caph"
+constexpr std::uint32_t kMagic = 0x69706163;  // "capi"
 static_assert(sizeof(SnowCaps::Point) == 32 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "film/jobs/camera.h"
 
@@ -102,6 +104,23 @@ TEST(GroundPlane, IsLeftOutWhereAPlateLiesOnIt)
     };
     EXPECT_GT(covered_m2(0.0f), 40.0) << "of 50";
     EXPECT_EQ(covered_m2(1.0f), 0.0) << "one can look below a table";
+}
+
+// Nor does a corner of one of its triangles lie within a side of another: snow would end at both.
+TEST(GroundPlane, HasNoCornersWithinSides)
+{
+    scene::Scene board = scene_of({box({-0.16f, 0, -0.17f}, {0.16f, 0.1f, 0.2f}), box({-0.02f, 0.1f, -0.02f}, {0.02f, 0.7f, 0.02f})});
+    add_ground(board, content_bounds(board));
+    const scene::Primitive& disc = board.meshes.back().primitives[0];
+    std::set<std::pair<float, float>> corners;
+    for (const std::uint32_t i : disc.indices) corners.emplace(disc.positions[i].x, disc.positions[i].z);
+    int within = 0;
+    for (std::size_t k = 0; k < disc.indices.size(); ++k) {
+        const glm::vec3 middle = 0.5f * (disc.positions[disc.indices[k]] + disc.positions[disc.indices[k % 3 == 2 ? k - 2 : k + 1]]);
+        within += corners.count({middle.x, middle.z}) > 0 ? 1 : 0;
+    }
+    EXPECT_EQ(within, 0);
+    EXPECT_GT(disc.positions.size(), 8000u);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "formulas/weather/surface_weather.h"
+
 namespace petrichor::scene::detail {
 namespace {
 
@@ -22,12 +24,16 @@ constexpr float kWidestGap_m = 0.14f;
 constexpr float kBevel_m = 0.03f;
 constexpr float kBesideJoint_m = 0.03f;
 constexpr float kOver_m = 0.12f;    // rays start so high
+constexpr float kTooth_m = 0.03f;   // sides as short are teeth of a border, which runs as it does over twice that ..
+constexpr float kToothless = 0.5f;  // .. unless it turns back within that
 
-float step_m(const Tracer& tracer)
+float size_m(const Tracer& tracer)
 {
     const vec3 size = tracer.triangles().high() - tracer.triangles().low();
-    return std::min(kStep_m, kStepOfSize * std::max(size.x, std::max(size.y, size.z)));
+    return std::max(size.x, std::max(size.y, size.z));
 }
+
+float step_m(const Tracer& tracer) { return std::min(kStep_m, kStepOfSize * size_m(tracer)); }
 
 // Ground at a place, or a step up.
 bool ground_at(const Tracer& tracer, const vec3& at)
@@ -63,6 +69,12 @@ int cell_along(float v)
 
 }  // namespace
 
+float small_model(const Tracer& tracer)
+{
+    constexpr float kStreet_m = kStep_m / kStepOfSize;
+    return 1.0f - shared::smooth_edge(0.5f * kStreet_m, kStreet_m, size_m(tracer));
+}
+
 Beyond beyond(const Tracer& tracer, const vec3& at, const vec2& out)
 {
     const vec3 way(out.x, 0.0f, out.y);
@@ -79,14 +91,67 @@ float gap_beyond_m(const Tracer& tracer, const vec3& at, const vec2& out)
     return 1.0e9f;
 }
 
+namespace {
+
+struct Side {
+    vec3 from, to, inner;
+    int triangles = 0;
+
+    // Out of its triangle, as long as the side is in plan.
+    vec2 out() const
+    {
+        const vec3 along = to - from, inwards = inner - from;
+        const vec2 across(along.z, -along.x);
+        return glm::dot(across, vec2(inwards.x, inwards.z)) > 0.0f ? -across : across;
+    }
+};
+// By points, in order: the same for any machine.
+using Sides = std::map<std::pair<std::uint32_t, std::uint32_t>, Side>;
+
+// Which way a border runs that is cut in teeth: as the sum of its sides around one, up to kTooth_m along it to either end.
+class Teeth {
+public:
+    explicit Teeth(const Sides& sides) : sides_(&sides)
+    {
+        for (const auto& [key, side] : sides) {
+            if (side.triangles != 1) continue;
+            at_[key.first].push_back(key.second);
+            at_[key.second].push_back(key.first);
+        }
+    }
+    // Not unit.
+    vec2 out(const std::pair<std::uint32_t, std::uint32_t>& key) const
+    {
+        const Side& own = sides_->at(key);
+        vec2 sum = own.out();
+        for (const auto& [end, other] : {key, std::pair(key.second, key.first)}) {
+            std::uint32_t at = end, before = other;
+            for (float left = kTooth_m - 0.5f * glm::length(own.out()); left > 0.0f;) {
+                const std::vector<std::uint32_t>& next = at_.at(at);
+                if (next.size() != 2) break;  // it ends or forks
+                const std::uint32_t to = next[0] == before ? next[1] : next[0];
+                if (to == key.first || to == key.second) break;
+                const vec2 out = sides_->at({std::min(at, to), std::max(at, to)}).out();
+                const float length = glm::length(out);
+                sum += length > left ? out * (left / length) : out;
+                left -= length;
+                before = at;
+                at = to;
+            }
+        }
+        return sum;
+    }
+
+private:
+    const Sides* sides_;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> at_;  // of each point: the other ends of the sides there
+};
+
+}  // namespace
+
 Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
 {
-    struct Side {
-        vec3 from, to, inner;
-        int triangles = 0;
-    };
-    // By points, in order: the same for any machine.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Side> sides;
+    Sides sides;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& p = mesh.primitives[i];
         for (std::size_t k = 0; k < p.indices.size(); ++k) {
@@ -101,15 +166,18 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
         }
     }
     Borders borders;
+    const Teeth teeth(sides);
     for (const auto& [key, border] : sides) {
         if (border.triangles != 1) continue;
         const vec3 along = border.to - border.from;
-        vec2 out(along.z, -along.x);
+        vec2 out = border.out();
         const float length = glm::length(out);
         if (!(length > 1.0e-5f)) continue;
-        out /= length;
-        const vec3 inwards = border.inner - border.from;
-        if (glm::dot(out, vec2(inwards.x, inwards.z)) > 0.0f) out = -out;
+        if (length < kTooth_m) {
+            const vec2 of_border = teeth.out(key);
+            if (glm::length(of_border) > kToothless * kTooth_m) out = of_border;
+        }
+        out /= glm::length(out);
         const int pieces = std::max(1, static_cast<int>(std::ceil(glm::length(along) / kPiece_m)));
         for (int k = 0; k < pieces; ++k) {
             const auto at = [&, from = border.from](float t) {

@@ -16,6 +16,9 @@ namespace petrichor::scene::detail {
 inline constexpr float kDeepDrop_m = 0.6f;
 inline constexpr float kBeyond_m = 0.04f;  ///< so far out of a border is what lies beyond
 
+/// How far a scene is a thing as it stands on a table, 0..1, by its size without its backdrop: its steps are its shape.
+float small_model(const Tracer& tracer);
+
 /// A piece of a border.
 struct Border {
     glm::vec3 from{0.0f};

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
+#include <unordered_map>
+#include <utility>
 
 #include "base/parallel.h"
 #include "formulas/noise/noise.h"
@@ -16,8 +20,7 @@ using glm::vec3;
 
 namespace {
 
-constexpr float kEven_m = 0.04f;    // what is seen of the sky is evened out over edges up to this
-constexpr int kEvenPasses = 8;
+constexpr float kEven_m = 0.06f;    // what is seen of the sky is evened out over so much
 constexpr float kBridge_m = 0.018f; // caps reach so far into walls and over joints
 constexpr float kMeet_m = 0.004f;   // surfaces so near to each other meet
 constexpr int kSpread = 12;         // edges that a support is told over
@@ -43,31 +46,77 @@ std::vector<float> longest_edges_m(const CutMesh& mesh, std::size_t count)
     return longest;
 }
 
-// Share of the sky at each point. Rays are few, and a step of a hand's width from point to point is no step of the snow.
+// Share of the sky at each point. Rays are few, and a step of a hand's width from point to point is no step of the snow: it
+// is evened out over what lies within kEven_m along the triangles, by its area, however fine they are.
 std::vector<float> even_sky(const CutMesh& mesh, std::size_t count)
 {
-    std::vector<float> sky(count, 0.0f);
-    for (std::size_t i = 0; i < mesh.primitives.size(); ++i)
-        for (std::size_t v = 0; v < mesh.points[i].size(); ++v) sky[mesh.points[i][v]] = mesh.primitives[i].weather[v].w;
-    for (int pass = 0; pass < kEvenPasses; ++pass) {
-        std::vector<float> sum(sky), weight(count, 1.0f);
-        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-            const Primitive& p = mesh.primitives[i];
-            for (std::size_t k = 0; k < p.indices.size(); ++k) {
-                const std::uint32_t a = p.indices[k], b = p.indices[k % 3 == 2 ? k - 2 : k + 1];
-                const float length = glm::distance(p.positions[a], p.positions[b]);
-                if (length >= kEven_m) continue;
-                const float w = 1.0f - length / kEven_m;
-                const std::uint32_t pa = mesh.points[i][a], pb = mesh.points[i][b];
-                sum[pa] += w * sky[pb];
-                sum[pb] += w * sky[pa];
-                weight[pa] += w;
-                weight[pb] += w;
+    std::vector<float> sky(count, 0.0f), area(count, 0.0f);
+    std::vector<std::vector<std::pair<std::uint32_t, float>>> beside(count);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const Primitive& p = mesh.primitives[i];
+        for (std::size_t v = 0; v < mesh.points[i].size(); ++v) sky[mesh.points[i][v]] = p.weather[v].w;
+        for (std::size_t k = 0; k < p.indices.size(); ++k) {
+            const std::uint32_t a = p.indices[k], b = p.indices[k % 3 == 2 ? k - 2 : k + 1], c = p.indices[k % 3 == 0 ? k + 2 : k - 1];
+            const std::uint32_t pa = mesh.points[i][a], pb = mesh.points[i][b];
+            area[pa] += glm::length(glm::cross(p.positions[b] - p.positions[a], p.positions[c] - p.positions[a]));
+            const float length = glm::distance(p.positions[a], p.positions[b]);
+            if (length >= kEven_m) continue;
+            beside[pa].emplace_back(pb, length);
+            beside[pb].emplace_back(pa, length);
+        }
+    }
+    // The nearest first (Dijkstra 1959).
+    using Next = std::pair<float, std::uint32_t>;
+    using Queue = std::priority_queue<Next, std::vector<Next>, std::greater<>>;
+    // Most points have all of it alike around them.
+    std::vector<float> from_others(count, kEven_m);
+    Queue others;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const bool alike = std::all_of(beside[i].begin(), beside[i].end(), [&](const auto& there) { return sky[there.first] == sky[i]; });
+        if (alike) continue;
+        from_others[i] = 0.0f;
+        others.emplace(0.0f, i);
+    }
+    while (!others.empty()) {
+        const auto [far, i] = others.top();
+        others.pop();
+        if (far > from_others[i]) continue;
+        for (const auto& [other, length] : beside[i]) {
+            if (!(far + length < from_others[other])) continue;
+            from_others[other] = far + length;
+            others.emplace(far + length, other);
+        }
+    }
+    std::vector<float> even(sky);
+    parallel_for(count, 0, [&](std::size_t first) {
+        if (!(from_others[first] < kEven_m)) return;
+        Queue queue;
+        std::unordered_map<std::uint32_t, float> away;
+        const auto own = static_cast<std::uint32_t>(first);
+        away[own] = 0.0f;
+        queue.emplace(0.0f, own);
+        float sum = 0.0f, weight = 0.0f;
+        while (!queue.empty()) {
+            const auto [far, i] = queue.top();
+            queue.pop();
+            if (far > away[i]) continue;
+            const float in = 1.0f - (far / kEven_m) * (far / kEven_m);
+            // No triangle counts beyond where it is told of.
+            const float w = in * in * std::min(area[i], kEven_m * kEven_m);
+            sum += w * sky[i];
+            weight += w;
+            for (const auto& [other, length] : beside[i]) {
+                const float there = far + length;
+                if (!(there < kEven_m)) continue;
+                const auto [found, fresh] = away.try_emplace(other, there);
+                if (!fresh && !(there < found->second)) continue;
+                found->second = there;
+                queue.emplace(there, other);
             }
         }
-        for (std::size_t i = 0; i < count; ++i) sky[i] = sum[i] / weight[i];
-    }
-    return sky;
+        if (weight > 0.0f) even[first] = sum / weight;
+    });
+    return even;
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ constexpr float kOfBanks_m = 24.0f;
 constexpr float kCell_m = 0.025f;
 constexpr float kClose_m = 2.2f;      // what is looked at from here is a thing on a table ..
 constexpr float kCloseCell_m = 0.006f;
+constexpr float kSmallClimbs = 0.55f;  // against the sides of a small model snow lies: it closes no steps higher than about its depth
 constexpr float kCloseUp = 0.5f;      // .. as long as its cells are so much finer
 constexpr float kCells = 9.0f;        // along a radius: a circle of a few hundred cells is enough
 constexpr float kFarCell_m = 0.1f;
@@ -76,8 +77,8 @@ std::vector<float> rims_on_ground(const SnowCaps& caps, const CutMesh& mesh, con
 
 }  // namespace
 
-Sheet::Sheet(const SnowCaps& caps, const CutMesh& mesh, float cell_m, const std::function<bool(const vec3&)>& near)
-    : cell_m_(cell_m)
+Sheet::Sheet(const SnowCaps& caps, const CutMesh& mesh, float cell_m, const std::function<bool(const vec3&)>& near, float climbs)
+    : cell_m_(cell_m), climbs_(climbs)
 {
     vec2 low(1.0e30f), high(-1.0e30f);
     for (const SnowCaps::Point& point : caps.points) {
@@ -156,7 +157,7 @@ Sheet::Smoothed Sheet::smoothed(const vec2& place, float own_m, float depth_m) c
                 covered = covered || (over > own_m + kBuries_m && over < own_m + kDeepestSnow_m);
             }
             const float step = std::abs(here - own_m);
-            const float w = in * in * step_closed(step, depth_m);
+            const float w = in * in * step_closed(step, climbs_ * depth_m);
             plane.add(w, way, here - own_m);
             open += w * own->open;
             bare += covered ? 0.0f : w * own->open;
@@ -175,15 +176,17 @@ Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>&
         for (const vec3& eye : options.eyes_m) nearest = std::min(nearest, glm::distance(eye, p));
         return nearest;
     };
-    const Sheet near(caps, mesh, kCell_m, [&](const vec3& p) { return eye_m(p) < kOfBanks_m; });
-    const Sheet close(caps, mesh, kCloseCell_m, [&](const vec3& p) { return !options.eyes_m.empty() && eye_m(p) < kClose_m; });
+    const float climbs = glm::mix(1.0f, kSmallClimbs, small_model(tracer));
+    const Sheet near(caps, mesh, kCell_m, [&](const vec3& p) { return eye_m(p) < kOfBanks_m; }, climbs);
+    const Sheet close(caps, mesh, kCloseCell_m, [&](const vec3& p) { return !options.eyes_m.empty() && eye_m(p) < kClose_m; }, climbs);
     const float close_m = !options.eyes_m.empty() && close.width() > 0 && close.cell_m() < kCloseUp * kCell_m ? kClose_m - 0.5f : 0.0f;
-    const Sheet far(caps, mesh, kFarCell_m, [](const vec3&) { return true; });
+    const Sheet far(caps, mesh, kFarCell_m, [](const vec3&) { return true; }, climbs);
     const std::vector<float> away = rims_on_ground(caps, mesh, joints, tracer);
     parallel_for(caps.points.size(), 0, [&](std::size_t i) {
         SnowCaps::Point& point = caps.points[i];
         const float eye = eye_m(point.base_m);
         const Sheet& sheet = eye < close_m ? close : eye < kNear_m - 1.0f ? near : far;
+        point.drop_m /= climbs;
         const float dip = 1.0f - shared::smooth_edge(0.0f, kDipWidth_m, away[i]);
         const float inside = shared::smooth_edge(0.0f, kAtEdge_m, point.edge_m);
         float open = point.broad, broad = point.share, seen = 1.0f;

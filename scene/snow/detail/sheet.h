@@ -26,7 +26,8 @@ public:
     };
 
     /// near: whether a place is of interest; others are left out. The cell grows where there would be too many.
-    Sheet(const SnowCaps& caps, const CutMesh& mesh, float cell_m, const std::function<bool(const glm::vec3&)>& near);
+    /// climbs: which steps count is told by so much of a depth.
+    Sheet(const SnowCaps& caps, const CutMesh& mesh, float cell_m, const std::function<bool(const glm::vec3&)>& near, float climbs);
 
     /// Mean around a place of what lies within a step of `own_m`, in a circle that goes with the depth. Steps much lower than
     /// the depth count as they are, higher ones not at all. What lies close below something else counts as just below it.
@@ -51,6 +52,7 @@ public:
 
 private:
     float cell_m_;
+    float climbs_;
     glm::vec2 low_{0.0f};
     int width_ = 0, height_ = 0;
     std::vector<std::uint32_t> first_;

@@ -13,7 +13,7 @@ namespace {
 
 using glm::vec3;
 
-constexpr int kRays = 16;
+constexpr int kRays = 64;
 constexpr float kCone = 0.6f;       // cosine from the zenith of the farthest ray
 constexpr float kBuried_m = 0.06f;  // what stands so high over level ground hides nothing from the sky
 constexpr float kSkin_m = 0.002f;   // rays start so far over a surface
