@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-#include "film/scenario/rules/tables.h"
+#include "film/scenario/rule_tables.h"
 
 namespace petrichor::film {
 

@@ -1,4 +1,4 @@
-#include "film/scenario/rules/tables.h"
+#include "film/scenario/rule_tables.h"
 
 #include "texproc/prefilter/rules.h"
 

@@ -1,6 +1,6 @@
 // Keys by their tables, each in a file of its own.
-#ifndef PETRICHOR_FILM_SCENARIO_RULES_TABLES_H
-#define PETRICHOR_FILM_SCENARIO_RULES_TABLES_H
+#ifndef PETRICHOR_FILM_SCENARIO_RULE_TABLES_H
+#define PETRICHOR_FILM_SCENARIO_RULE_TABLES_H
 
 #include <vector>
 
