@@ -4,36 +4,11 @@
 #include <cmath>
 
 #include "gpu/lighting/lighting_models.h"
+#include "tests/gpu/ball.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {
 namespace {
-
-// A ball of .9 m around `at`.
-Primitive ball(const glm::vec3& at, std::uint32_t material)
-{
-    Primitive p;
-    constexpr int kRows = 40, kColumns = 64;
-    for (int i = 0; i <= kRows; ++i) {
-        for (int j = 0; j <= kColumns; ++j) {
-            const float a = 3.14159265f * static_cast<float>(i) / kRows;
-            const float b = 6.2831853f * static_cast<float>(j) / kColumns;
-            const glm::vec3 n(std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b));
-            p.positions.push_back(at + 0.9f * n);
-            p.normals.push_back(n);
-            p.tangents.emplace_back(-std::sin(b), 0.0f, std::cos(b), 1.0f);
-            p.uv0.emplace_back(static_cast<float>(j) / kColumns, static_cast<float>(i) / kRows);
-        }
-    }
-    for (std::uint32_t i = 0; i < kRows; ++i) {
-        for (std::uint32_t j = 0; j < kColumns; ++j) {
-            const std::uint32_t a = i * (kColumns + 1) + j, b = a + kColumns + 1;
-            for (const std::uint32_t k : {a, a + 1, b, b, a + 1, b + 1}) p.indices.push_back(k);
-        }
-    }
-    p.material = material;
-    return p;
-}
 
 struct Look {
     std::string name;
@@ -145,7 +120,7 @@ TEST_F(BlendedSurfaces, HaveEveryModelLayerLightAndWeather)
         for (std::size_t i = 0; i < all.size(); ++i) {
             // Side by side: a solid one keeps rain and snow off what is below it.
             const float x = 2.0f * static_cast<float>(i) - static_cast<float>(all.size() - 1);
-            balls.push_back(ball({x, 0.0f, 0.0f}, static_cast<std::uint32_t>(i)));
+            balls.push_back(ball(static_cast<std::uint32_t>(i), {x, 0.0f, 0.0f}, 0.9f));
             materials.push_back(all[i].material);
             materials.back().base_color.a = alpha;
             if (alpha < 1.0f) materials.back().alpha_mode = AlphaMode::Blend;

@@ -3,6 +3,7 @@
 
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/skin.h"
+#include "tests/gpu/ball.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {
@@ -11,32 +12,6 @@ namespace {
 using LightModels = GpuTest;
 
 constexpr float kLux = 1000.0f;
-
-// A ball of 1 m at the origin.
-Primitive ball(std::uint32_t material = 0)
-{
-    Primitive p;
-    const int rows = 32, columns = 48;
-    for (int i = 0; i <= rows; ++i) {
-        for (int j = 0; j <= columns; ++j) {
-            const float a = 3.14159265f * static_cast<float>(i) / rows;
-            const float b = 6.2831853f * static_cast<float>(j) / columns;
-            const glm::vec3 n(std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b));
-            p.positions.push_back(n);
-            p.normals.push_back(n);
-            p.tangents.emplace_back(-std::sin(b), 0.0f, std::cos(b), 1.0f);
-            p.uv0.emplace_back(static_cast<float>(j) / columns, static_cast<float>(i) / rows);
-        }
-    }
-    for (std::uint32_t i = 0; i < rows; ++i) {
-        for (std::uint32_t j = 0; j < columns; ++j) {
-            const std::uint32_t a = i * (columns + 1) + j, b = a + columns + 1;
-            for (const std::uint32_t k : {a, a + 1, b, b, a + 1, b + 1}) p.indices.push_back(k);
-        }
-    }
-    p.material = material;
-    return p;
-}
 
 Light sun(const glm::vec3& from)
 {
