@@ -62,7 +62,7 @@ InputFile open_regular_file(const std::filesystem::path& path, std::string_view 
         const int why = errno;
         if (why == ENOENT) {
             throw Error(named(what, path) + ": there is no such file",
-                        "Check the path; it is relative to the folder that you are in.");
+                        path.is_absolute() ? "Check the path." : "Check the path; it is relative to the folder that you are in.");
         }
         throw Error(named(what, path) + ": it cannot be opened: " + std::strerror(why),
                     "Check that it may be read.");
