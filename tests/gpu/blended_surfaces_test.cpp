@@ -108,7 +108,6 @@ using BlendedSurfaces = GpuTest;
 
 TEST_F(BlendedSurfaces, HaveEveryModelLayerLightAndWeather)
 {
-    if (!renderer) GTEST_SKIP();
     const std::vector<Look> all = looks();
     Frame frame = lit_by_all();
     frame.camera.orthographic_height_m = 2.0f;
