@@ -2,7 +2,7 @@
 #include <map>
 
 #include "gpu/lighting/lighting_models.h"
-#include "tests/gpu/gpu_fixture.h"
+#include "tests/gpu/furnace_frame.h"
 
 namespace petrichor::gpu {
 namespace {
@@ -12,14 +12,7 @@ protected:
     // Of a plate of that material, seen under that cosine.
     float light(float up, bool wet)
     {
-        Frame frame;
-        frame.camera = look(4.0f * glm::vec3(std::sqrt(1.0f - up * up), up, 0.0f), {0, 0, 0}, 0.05f);
-        frame.settings.width = 17;
-        frame.settings.height = 17;
-        frame.settings.samples = 1;
-        frame.settings.ambient_occlusion = false;
-        frame.sky.sun_illuminance = 0.0f;
-        frame.weather.visibility_m = 1e9f;
+        Frame frame = furnace_frame(up);
         if (wet) {
             frame.weather.film_albedo = 0.85f;
             frame.weather.film_smoothness = 0.5f;

@@ -1,7 +1,7 @@
 // What a surface mirrors of an even sky: the split-sum table, as pictures have it, against a sum over the lobe.
 #include <cmath>
 
-#include "tests/gpu/gpu_fixture.h"
+#include "tests/gpu/furnace_frame.h"
 
 namespace petrichor::gpu {
 namespace {
@@ -43,14 +43,7 @@ TEST_F(SplitSum, IsTheSumOverTheLobe)
             renderer->load(scene_of({quad({-6, 0, 6}, {12, 0, 0}, {0, 0, -12})}, {metal}), {});
             renderer->set_environment(constant_environment(1.0f));
             for (const float up : {1.0f, 0.5f, 0.2f}) {
-                Frame frame;
-                frame.camera = look(4.0f * glm::vec3(std::sqrt(1.0f - up * up), up, 0.0f), {0, 0, 0}, 0.05f);
-                frame.settings.width = 17;
-                frame.settings.height = 17;
-                frame.settings.samples = 1;
-                frame.settings.ambient_occlusion = false;
-                frame.sky.sun_illuminance = 0.0f;
-                frame.weather.visibility_m = 1e9f;
+                const Frame frame = furnace_frame(up);
                 const double expected = mirrored(static_cast<double>(up), static_cast<double>(roughness), static_cast<double>(f0));
                 EXPECT_NEAR(static_cast<double>(pixel(renderer->render(frame), 8, 8).g) / expected, 1.0, 0.015)
                     << "roughness " << roughness << ", F0 " << f0 << ", cosine " << up << ": " << expected;
