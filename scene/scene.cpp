@@ -51,8 +51,12 @@ glm::mat4 clip_projection(const Camera& camera, int width, int height, float far
     if (camera.orthographic_height_m > 0.0f) {
         projection[2][2] = 1.0f / far_m;
         projection[3][2] = 1.0f;
+        projection[3][0] = -camera.shift.x;
+        projection[3][1] = -camera.shift.y;
         projection[3][3] = 1.0f;
     } else {
+        projection[2][0] = camera.shift.x;
+        projection[2][1] = camera.shift.y;
         projection[2][3] = -1.0f;
         projection[3][2] = camera.near_m;
     }

@@ -273,6 +273,7 @@ struct Material {
     float alpha_cutoff = 0.5f;
     bool premultiplied_alpha = false;  ///< Blend: what is mirrored does not fade with alpha
     bool casts_shadows = true;
+    bool receives_shadows = true;  ///< false: sun and lamps light it as if nothing stood in their way
     bool area_lights = true;  ///< false: lamps light it as points, whatever their size
     bool double_sided = false;
     bool cull_front = false;
@@ -431,6 +432,7 @@ struct Light {
     bool shaped = false;     ///< a rectangle that is a lamp, not a surface that glows
     bool glows = false;      ///< a surface that glows, which is seen by itself, too
     float specular = 1.0f;   ///< 0..1: of highlights; 0 fills without any
+    float shadow_strength = 1.0f;  ///< 0..1: share of the light that its shadows take away
     int mask_channel = 0;    ///< of shadow masks, that its shadow is baked in: 1..3; 0: none
     std::int32_t node = kNoNode;  ///< of the rig, that carries it
     std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative
@@ -458,6 +460,7 @@ struct Camera {
     float near_m = 0.05f;
     float orthographic_height_m = 0.0f;  ///< > 0: orthographic
     std::int32_t node = kNoNode;         ///< of the rig, that carries it
+    glm::vec2 shift{0.0f};  ///< where the picture's middle lies from the axis, right and up, in halves of its width and height
 };
 /// Half of what a picture of width x height shows at a distance of 1 m, metres; orthographic: at
 /// any.
