@@ -13,6 +13,7 @@
 #include "cli/texture/prefilter_options.h"
 #include "cli/texture/prefilter_timings.h"
 #include "texproc/codecs/files/texture.h"
+#include "texproc/filter/normal_codes.h"
 #include "texproc/material/normal_channels.h"
 #include "texproc/material/pack.h"
 #include "texproc/prefilter/prefilter.h"
@@ -194,7 +195,7 @@ void run(Arguments& a)
         // What was rounded is no longer what the source file holds, which else is copied.
         if (maps.normal.type != texproc::PixelType::U8) a.input.normal.clear();
         if (maps.map.type != texproc::PixelType::U8) maps.map_path.clear();
-        maps.normal = texproc::in_8_bits(std::move(maps.normal));
+        maps.normal = texproc::normals_in_8_bits(std::move(maps.normal), o.normal_x, o.normal_y);
         maps.map = texproc::in_8_bits(std::move(maps.map));
     }
     BlockFit fit;

@@ -7,6 +7,7 @@
 
 #include "tests/cli/texture_inputs.h"
 #include "tests/support/program.h"
+#include "texproc/filter/normal_codes.h"
 #include "texproc/generate/generate.h"
 
 namespace petrichor::cli {
@@ -231,6 +232,12 @@ TEST(TextureTools, EightBitLevelsMirrorWhereTheirLevel0Does)
                                           image.bytes.begin() + static_cast<std::ptrdiff_t>(middle) + image.channels);
         };
         for (int level = 1; level <= 3; ++level) EXPECT_EQ(codes(level), codes(0)) << what << level;
+    }
+    // Both sides of straight up lean alike (the waves go to either side): not the nearest codes.
+    const texproc::RawImage map = texproc::read_raw(place / "n.png");
+    for (const char* file : {"p_n_0.png", "m_n_0.png"}) {
+        EXPECT_EQ(texproc::read_raw(place / file).bytes, texproc::normals_in_8_bits(map).bytes) << file;
+        EXPECT_NE(texproc::read_raw(place / file).bytes, texproc::in_8_bits(map).bytes) << file;
     }
 }
 

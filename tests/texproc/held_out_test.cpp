@@ -97,6 +97,22 @@ TEST_P(HeldOut, EightBitsCloseTheRoomOfWhatShips)
     }
 }
 
+// Polished tiles whose texels lean to all sides of straight up, by less than two codes: from level 7 on the mean of
+// so many is straight up, and only a level 0 that leans as one has a code there.
+TEST(EightBits, HoldTheMeanOfAPolishedTile)
+{
+    std::vector<ScoredMaps> hard = hard_maps(512);
+    std::erase_if(hard, [](const ScoredMaps& m) { return m.name != "two-gloss tile"; });
+    ASSERT_EQ(hard.size(), 1u);
+    ProtocolOptions options = some_texels({0.0f});
+    options.bits = 8;
+    for (const ProtocolRow& row : run_protocol(hard, overlap_variants(8), options)) {
+        if (row.variant != "overlap joint") continue;
+        EXPECT_GE(row.score.fine().gap(), 90.0) << to_text(row.score);
+        EXPECT_GE(row.score.coarse().gap(), 95.0) << to_text(row.score);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, HeldOut, testing::Values(101u, 102u));
 
 // Where one lobe is split over a patchwork, each patch keeps its own.

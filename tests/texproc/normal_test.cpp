@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "texproc/filter/detail/fft.h"
+#include "texproc/filter/normal_codes.h"
 #include "texproc/generate/noise.h"
 
 namespace petrichor::texproc {
@@ -25,6 +26,65 @@ Image hills(int width, int height)
         }
     }
     return h;
+}
+
+// Small slopes about straight up, whose code is `flat`.
+RawImage nearly_flat(double flat)
+{
+    Image n(64, 64, 3, ColorSpace::Data, 1.0f);
+    for (int i = 0; i < 64 * 64; ++i) {
+        for (int c = 0; c < 2; ++c) {
+            const double off = 4.0 * (static_cast<double>((i * 2654435761u + static_cast<unsigned>(c) * 40503u) % 1009u) / 1008.0) - 2.0;
+            n.pixels[static_cast<std::size_t>(3 * i + c)] = static_cast<float>((flat + off) / 255.0);
+        }
+    }
+    return to_raw(n, PixelType::U16);
+}
+
+double mean_code(const RawImage& image, int channel)
+{
+    double sum = 0.0;
+    const Image n = to_image(image, ColorSpace::Data);
+    for (std::size_t i = static_cast<std::size_t>(channel); i < n.pixels.size(); i += 3) sum += 255.0 * static_cast<double>(n.pixels[i]);
+    return sum / static_cast<double>(n.width * n.height);
+}
+
+// The mean of many normals is a code, whichever way flat was written: to either side of it no level could hold it.
+TEST(Normal, EightBitsLeanAlikeSoThatTheirMeanIsACode)
+{
+    for (const double flat : {127.5, 128.0}) {
+        const RawImage maps = nearly_flat(flat), codes = normals_in_8_bits(maps);
+        for (int c = 0; c < 2; ++c) {
+            EXPECT_NEAR(mean_code(maps, c), flat, 0.02);
+            EXPECT_NEAR(mean_code(codes, c), 128.0, 0.05) << flat;
+        }
+        EXPECT_EQ(codes.bytes[2], std::byte{255});
+        EXPECT_EQ(normals_in_8_bits(codes).bytes, codes.bytes);
+    }
+}
+
+TEST(Normal, EightBitsKeepCodesThatMoreBitsHold)
+{
+    Image n(256, 1, 3, ColorSpace::Data);
+    for (std::size_t i = 0; i < n.pixels.size(); ++i) n.pixels[i] = static_cast<float>((i * 7) % 256) / 255.0f;
+    for (const PixelType type : {PixelType::U16, PixelType::F32})
+        EXPECT_EQ(normals_in_8_bits(to_raw(n, type)).bytes, to_raw(n, PixelType::U8).bytes);
+}
+
+// x may lie in alpha; what lies in its place is no direction and becomes the nearest code.
+TEST(Normal, EightBitsLeanInTheChannelsThatHoldTheSlopes)
+{
+    const RawImage flat = to_raw(Image(4, 4, 4, ColorSpace::Data, 127.6f / 255.0f), PixelType::U16);
+    const RawImage low = to_raw(Image(4, 4, 4, ColorSpace::Data, 127.4f / 255.0f), PixelType::U16);
+    const auto texel = [](const RawImage& image) {
+        return std::vector<std::byte>(image.bytes.begin(), image.bytes.begin() + 4);
+    };
+    const auto of = [](int r, int g, int b, int a) {
+        return std::vector<std::byte>{static_cast<std::byte>(r), static_cast<std::byte>(g), static_cast<std::byte>(b),
+                                      static_cast<std::byte>(a)};
+    };
+    EXPECT_EQ(texel(normals_in_8_bits(flat, 3, 1)), of(128, 128, 128, 128));
+    EXPECT_EQ(texel(normals_in_8_bits(low, 3, 1)), of(127, 128, 127, 128));
 }
 
 TEST(Normal, SlopesPointDownhill)

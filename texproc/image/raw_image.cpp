@@ -74,7 +74,10 @@ void float_to_codes(const Image& image, Rounding rounding, std::byte* to)
 {
     constexpr float kTop = static_cast<float>((1 << (8 * sizeof(Code))) - 1);
     const bool encode = image.space == ColorSpace::Linear;
-    const bool ordered = rounding == Rounding::Ordered && sizeof(Code) == 1;
+    // A texel of the pattern is off by up to a whole code; only over all of it the mean is right.
+    constexpr std::size_t kWholePattern = 64;
+    const bool ordered =
+        rounding == Rounding::Ordered && sizeof(Code) == 1 && static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) >= kWholePattern;
     float thresholds[8][8][4];
     for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 8; ++x) {

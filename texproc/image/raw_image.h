@@ -53,7 +53,8 @@ Image to_image(const RawImage& raw, ColorSpace space);
 enum class Rounding {
     Nearest,
     Ordered,  ///< up or down by an 8 x 8 pattern that tiles, so that the mean of a region is kept:
-              ///< slow ramps do not band. Each channel has the pattern at another place.
+              ///< slow ramps do not band. Each channel has the pattern at another place. Images of fewer
+              ///< than 64 texels have no mean to keep, and are rounded as by Nearest.
 };
 
 /// Rounds to the nearest code (U8, U16) or the nearest half. space Linear: integers are

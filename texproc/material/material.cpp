@@ -153,7 +153,8 @@ std::vector<RawImage> Maker::levels(std::size_t number, const std::string& role,
                                     std::size_t last) const
 {
     const OutputRule& rule = plan_.outputs[number].rule;
-    const RawImage& raw = maps_.images.at(role);
+    const RawImage* rounded = prefiltered_.level0(number, role);
+    const RawImage& raw = rounded ? *rounded : maps_.images.at(role);
     const PixelType type = working_type(rule);
     const bool color = is_color(role) && rule.srgb();
     const ColorSpace space = color ? ColorSpace::Linear : ColorSpace::Data;

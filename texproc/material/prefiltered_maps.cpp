@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "texproc/filter/normal_codes.h"
 #include "texproc/material/shipped.h"
 #include "texproc/material/surface_class.h"
 #include "texproc/prefilter/picture.h"
@@ -35,8 +36,9 @@ PrefilteredMaps::PrefilteredMaps(const PlannedMaterial& plan, const SourceMaps& 
                         std::none_of(plan.outputs.begin(), plan.outputs.end(), [](const PlannedOutput& output) {
                             return output.prefiltered && output.rule.compression != "none";
                         });
-    chains_ = rounds ? prefilter_raw(in_8_bits(normal), in_8_bits(rough), options_)
-                     : prefilter_raw(normal, rough, options_);
+    if (rounds && normal.type != PixelType::U8) normal_ = normals_in_8_bits(normal);
+    if (rounds && rough.type != PixelType::U8) rough_ = in_8_bits(rough);
+    chains_ = prefilter_raw(this->normal(), this->rough(), options_);
 }
 
 namespace {
@@ -70,6 +72,21 @@ void PrefilteredMaps::choose_options(int threads)
                                                     .threads = threads});
     if (options_.rule == "picture" && !options_.quick) options_.surface = class_of(maps_);
     bits_ = std::min(bits, 16);
+}
+
+const RawImage& PrefilteredMaps::normal() const
+{
+    return normal_ ? *normal_ : maps_.images.at("normal");
+}
+
+const RawImage& PrefilteredMaps::rough() const
+{
+    return rough_ ? *rough_ : maps_.images.at(rough_role_);
+}
+
+const RawImage* PrefilteredMaps::level0(std::size_t number, const std::string& role) const
+{
+    return normal_ && role == "normal" && holds(plan_.outputs[number], role) ? &*normal_ : nullptr;
 }
 
 bool PrefilteredMaps::holds(const PlannedOutput& output, const std::string& role) const
@@ -282,7 +299,7 @@ std::optional<Prefiltered> PrefilteredMaps::shipped(const std::vector<MadeOutput
 Score PrefilteredMaps::lobe_error(const Prefiltered& shipped) const
 {
     return texproc::score(
-        maps_.images.at("normal"), maps_.images.at(rough_role_), shipped, options_,
+        normal(), rough(), shipped, options_,
         {.light = plan_.recipe->prefilter.design_light, .texels = 16, .threads = options_.threads});
 }
 
@@ -304,7 +321,7 @@ PictureError PrefilteredMaps::picture_error(const Prefiltered& shipped,
 const PictureBench& PrefilteredMaps::bench() const
 {
     if (!bench_) {
-        bench_.emplace(maps_.images.at("normal"), maps_.images.at(rough_role_), options_,
+        bench_.emplace(normal(), rough(), options_,
                        build_pictures(options_.threads, options_.surface));
     }
     return *bench_;

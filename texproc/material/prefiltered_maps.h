@@ -40,6 +40,9 @@ public:
     /// Level 0 of kSecondLobe, where both lobes are those of the maps.
     RawImage second_lobe_of_maps() const;
 
+    /// Level 0 of a role for an output where it is not the map as it came: normals of more than 8 bits in files
+    /// of 8, rounded before their levels were made. Else nullptr.
+    const RawImage* level0(std::size_t number, const std::string& role) const;
     /// Levels 1.. of a role for an output; nullptr where they are plain mips.
     const std::vector<Image>* levels(std::size_t number, const std::string& role) const;
     /// What the base colour is to be multiplied by (apply_base_shares); empty: by nothing.
@@ -59,6 +62,8 @@ public:
 
 private:
     void choose_options(int threads);
+    const RawImage& normal() const;  // level 0 as the levels were made of it, and as scores see it
+    const RawImage& rough() const;
     const PictureBench& bench() const;
     bool is_guarded(const PlannedOutput& output) const;
     Prefiltered as_read(std::size_t number, const std::vector<MadeOutput>& made,
@@ -79,6 +84,7 @@ private:
     std::string rough_role_;  // empty: nothing is prefiltered
     PrefilterOptions options_;
     int bits_ = 8;  // of the finest file
+    std::optional<RawImage> normal_, rough_;  // level 0 in 8 bits, where levels are made of that
     Prefiltered chains_;
     std::map<std::size_t, std::vector<Image>> aimed_;    // roughness, by the output of its normals
     std::map<std::size_t, std::vector<Image>> guarded_;  // roughness with plain levels, by output

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <set>
 
+#include "texproc/filter/normal_codes.h"
 #include "texproc/prefilter/rules.h"
 
 namespace petrichor::texproc {
@@ -158,7 +159,7 @@ std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
                 ScoredMaps maps{material.name, rolled(material.normal, dx, dy),
                                 rolled(material.roughness, dx, dy)};
                 if (options.bits == 8) {
-                    maps.normal = in_8_bits(std::move(maps.normal));
+                    maps.normal = normals_in_8_bits(std::move(maps.normal));
                     maps.roughness = in_8_bits(std::move(maps.roughness));
                 }
                 const ScoreOptions scoring{.light = light,
