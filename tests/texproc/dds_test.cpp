@@ -271,6 +271,9 @@ TEST_F(Dds, OrderedDitheringKeepsTheMean)
     }
     EXPECT_EQ(to_raw(codes, PixelType::U8, Rounding::Ordered).bytes,
               to_raw(codes, PixelType::U8).bytes);
+    // A texel alone has no mean to keep: just below a code, the lowest threshold would make it the next one.
+    EXPECT_EQ(to_raw(Image(1, 1, 3, ColorSpace::Data, 127.9f / 255.0f), PixelType::U8, Rounding::Ordered).bytes,
+              std::vector<std::byte>(3, std::byte{128}));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ float read_alpha2(const Codes& codes, const StoredAs& as);
 bool coarse_codes(float lit_alpha2, const StoredAs& as);
 
 /// The codes that cost least near a lobe: eight bits hold few directions of unit length, but
-/// readers normalise, so vectors up to 5 % shorter reach directions between them; and the roughness
+/// readers normalise, so vectors up to a quarter shorter reach directions between them; and the roughness
 /// is chosen for the direction that is really stored. `plain`: codes that must not be beaten by the
 /// choice. light2: added to alpha^2 on reading.
 Codes cheapest_codes(const LobeCost& cost, const Direction& normal, float alpha2,
