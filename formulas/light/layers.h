@@ -118,10 +118,9 @@ SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, floa
         const float coat_alpha = max(layers.coat_roughness * layers.coat_roughness, 0.002f);
         const float coat_here = ggx_distribution(clamp(dot(layers.other_normal, h), 0.0f, 1.0f), coat_alpha) *
                                 ggx_visibility(nl, nv, coat_alpha);
-        // What passes on the way in and on the way out. (The extension's own factor, of the half
-        // vector, lets a grazing coat send out a quarter more than comes in.)
-        const float below = (1.0f - layers.coat * coat_fresnel(nl)) *
-                            (1.0f - layers.coat * coat_fresnel(nv));
+        // The extension leaves the base what the coat does not mirror to the eye, once. The same of the
+        // light where that grazes more: so both ways are alike, and no more is sent out than comes in.
+        const float below = 1.0f - layers.coat * max(coat_fresnel(nl), coat_fresnel(nv));
         const float mirrored =
             layers.coat * coat_fresnel(clamp(dot(l, h), 0.0f, 1.0f)) * coat_here * nl;
         base = base * below + splat3(mirrored);

@@ -5,11 +5,12 @@
 
 #include "base/error.h"
 #include "scene/gltf/detail/gltf_uri.h"
-#include "scene/gltf/detail/meshopt.h"
+#include "scene/gltf/detail/meshopt_views.h"
 
 namespace petrichor::scene {
 namespace {
 
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr const char* kFixDamaged = "Export the scene again: the file is damaged or incomplete.";
 
 std::size_t component_bytes(ComponentType type)
@@ -215,13 +216,11 @@ std::span<const std::byte> GltfBuffers::buffer(std::uint32_t index)
     return buffers_[index] = bytes.first(length);
 }
 
-// EXT_meshopt_compression of a view; its plain bytes may be missing.
-std::span<const std::byte> GltfBuffers::unpacked_view(const JsonObject& json,
-                                                      const JsonObject& view_json,
-                                                      std::uint32_t index)
+namespace {
+
+MeshoptView packed_view(const JsonObject& json, const JsonObject& view_json,
+                        std::span<const std::byte> packed)
 {
-    const auto known = unpacked_.find(index);
-    if (known != unpacked_.end()) return known->second;
     const auto choice = [&](std::string_view key, std::span<const std::string_view> words) {
         const std::string word = json.text(key, std::string(words[0]));
         const auto found = std::find(words.begin(), words.end(), word);
@@ -231,7 +230,6 @@ std::span<const std::byte> GltfBuffers::unpacked_view(const JsonObject& json,
     static constexpr std::string_view kModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
     static constexpr std::string_view kFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION",
                                                     "EXPONENTIAL"};
-    const auto packed = range_of(json);
     const std::uint64_t stride = json.require_whole("byteStride");
     const std::uint64_t count = json.require_whole("count");
     if (stride == 0 || stride > 256 || count != view_json.require_whole("byteLength") / stride) {
@@ -242,20 +240,42 @@ std::span<const std::byte> GltfBuffers::unpacked_view(const JsonObject& json,
         json.fail("count", "is more than " + std::to_string(packed.size()) + " bytes can hold",
                   kFixDamaged);
     }
-    budget.take(count, stride, json.path_to("count"), *log_);
-    auto bytes = unpack_meshopt(packed, count, stride,
-                                static_cast<MeshoptMode>(choice("mode", kModes)),
-                                static_cast<MeshoptFilter>(choice("filter", kFilters)));
-    if (!bytes) json.fail("", "the packed bytes are damaged", kFixDamaged);
-    return unpacked_[index] = std::move(*bytes);
+    return {packed, count, stride, static_cast<MeshoptMode>(choice("mode", kModes)),
+            static_cast<MeshoptFilter>(choice("filter", kFilters))};
+}
+
+}  // namespace
+
+// All of the file that are packed, since a child process unpacks them; their plain bytes may be missing.
+void GltfBuffers::unpack_views()
+{
+    std::vector<MeshoptView> packed;
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t i = 0; i < view_count(); ++i) {
+        const JsonObject view_json = views_json_.object(i);
+        const auto json = view_json.extension(kMeshopt);
+        if (!json) continue;
+        packed.push_back(packed_view(*json, view_json, range_of(*json)));
+        places.push_back(i);
+        budget.take(packed.back().count, packed.back().stride, json->path_to("count"), *log_);
+    }
+    auto unpacked = unpack_meshopt_views(packed, log_->file);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!unpacked[i]) {
+            views_json_.object(places[i])
+                .extension(kMeshopt)
+                ->fail("", "the packed bytes are damaged", kFixDamaged);
+        }
+        unpacked_[places[i]] = std::move(*unpacked[i]);
+    }
 }
 
 std::span<const std::byte> GltfBuffers::view(std::uint32_t index)
 {
     const JsonObject json = views_json_.object(index);
-    if (const auto packed = json.extension("EXT_meshopt_compression"))
-        return unpacked_view(*packed, json, index);
-    return range_of(json);
+    if (!json.extension(kMeshopt)) return range_of(json);
+    if (unpacked_.empty()) unpack_views();
+    return unpacked_.at(index);
 }
 
 // The bytes of a view, or of its packed form.

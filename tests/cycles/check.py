@@ -18,6 +18,7 @@ import sys
 import tempfile
 import zlib
 
+import layers
 import scenes
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -61,7 +62,7 @@ def png(path, linear, scale):
 
 
 def compare(petrichor, name, folder, samples):
-    """Median relative error, share of light and FLIP."""
+    """Median relative error, share of light, FLIP, and errors by layer."""
     out = folder / name
     scenario = street(petrichor, folder) if name == "street" else scenes.write(name, folder, samples)
     if name == "street" and SHOWN.read_text().strip() != of_street(folder):
@@ -73,11 +74,28 @@ def compare(petrichor, name, folder, samples):
     bright = sorted(b for _, b in sums)[int(0.98 * len(sums))]
     lit = [(a, b) for a, b in sums if b > 1.0e-3 * bright]
     errors = sorted(abs(a - b) / b for a, b in lit)
+    apart = by_layer(name, sums, 1.0e-3 * bright)
     scale = 2.4 / bright
     png(folder / f"{name}_ours.png", ours, scale)
     png(folder / f"{name}_cycles.png", theirs, scale)
     flip = json.loads(run(petrichor, "texture", "compare", folder / f"{name}_cycles.png", folder / f"{name}_ours.png", "-o", folder / f"{name}_flip.png", "--json"))["flip"]["mean"]
-    return errors[len(errors) // 2], errors[int(0.9 * len(errors))], sum(a for a, _ in lit) / sum(b for _, b in lit), flip
+    return errors[len(errors) // 2], errors[int(0.9 * len(errors))], sum(a for a, _ in lit) / sum(b for _, b in lit), flip, apart
+
+
+def by_layer(name, sums, dark):
+    """Of pictures of a layer in each field: its name, median relative error, light, and what the median may be."""
+    width, height = scenes.SIZE
+    across, down = width // layers.COLUMNS, height // layers.ROWS
+    found = []
+    for number, called in enumerate(layers.NAMES.get(name, [])):
+        left, top = number % layers.COLUMNS * across, number // layers.COLUMNS * down
+        # Where the thing itself is: stripes lie around panes.
+        near = 12 if "glass" in called or "body" in called or called == "dispersion" else across
+        lit = [(a, b) for y in range(top, top + down) for a, b in sums[y * width + left:y * width + left + across][max(across // 2 - near, 0):across // 2 + near]
+               if b > dark and abs(y - top - down // 2) < near]
+        errors = sorted(abs(a - b) / b for a, b in lit)
+        found.append((called, errors[len(errors) // 2], sum(a for a, _ in lit) / sum(b for _, b in lit), layers.LIMITS.get(called, scenes.LIMITS[name][0])))
+    return found
 
 
 def of_street(folder):
@@ -116,10 +134,12 @@ def main():
         for name in asked.names or scenes.LIMITS:
             if asked.accept:
                 accept(asked.petrichor, name, folder, asked.accept)
-            middle, high, light, flip = compare(asked.petrichor, name, folder, asked.samples)
+            middle, high, light, flip, apart = compare(asked.petrichor, name, folder, asked.samples)
             most, most_flip = scenes.LIMITS[name]
             bad = not ((most is None or middle <= most) and flip <= most_flip)
-            failed = failed or bad
+            failed = failed or bad or any(error > at_most for _, error, _, at_most in apart)
+            for called, error, shares, at_most in apart:
+                print(f"  {called:24} error median {100 * error:6.2f} % (at most {100 * at_most:g}), light {shares:.3f}{'  FAILED' if error > at_most else ''}", flush=True)
             print(f"{name:16} error median {100 * middle:6.2f} %{'' if most is None else f' (at most {100 * most:g})'}, 90 of 100 below {100 * high:6.2f} %, "
                   f"light {light:.3f}, FLIP {flip:.4f} (at most {most_flip:g}){'  FAILED' if bad else ''}", flush=True)
     finally:

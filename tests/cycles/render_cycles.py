@@ -10,6 +10,7 @@ import bpy
 import mathutils
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import layers  # noqa: E402
 import scenes  # noqa: E402
 
 name, out, *rest = sys.argv[sys.argv.index("--") + 1:]
@@ -41,18 +42,85 @@ def material(called):
     return made
 
 
+def of_lobes(called, lobes, data):
+    """A sum of lobes, each times its colour at every corner (layers.py)."""
+    made = bpy.data.materials.new(called)
+    made.use_nodes = True
+    tree = made.node_tree
+    tree.nodes.clear()
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    total = None
+    corners = [layers.Seen(p, n) for p, n in zip(*data)]
+    colors = []
+    for number, ((kind, *how), color) in enumerate(lobes):
+        if kind == "absorb":
+            shader = tree.nodes.new("ShaderNodeVolumeAbsorption")
+            shader.inputs["Density"].default_value, shader.inputs["Color"].default_value = how[0], (*how[1], 1.0)
+            tree.links.new(shader.outputs[0], output.inputs["Volume"])
+            continue
+        colors.append([color(g) for g in corners])
+        share = tree.nodes.new("ShaderNodeAttribute")
+        share.attribute_name = f"lobe{number}"
+        if kind == "ggx" and len(how) == 3:
+            shader = stretched(tree, *how)
+        elif kind == "ggx":
+            shader = tree.nodes.new("ShaderNodeBsdfGlossy")
+            shader.distribution = "GGX"
+            shader.inputs["Roughness"].default_value = how[0]
+        elif kind == "bent":
+            shader = tree.nodes.new("ShaderNodeBsdfRefraction")
+            shader.distribution = "GGX"
+            shader.inputs["IOR"].default_value, shader.inputs["Roughness"].default_value = how
+        else:
+            shader = tree.nodes.new({"clear": "ShaderNodeBsdfTransparent", "diffuse": "ShaderNodeBsdfDiffuse", "through": "ShaderNodeBsdfTranslucent", "glow": "ShaderNodeEmission"}[kind])
+        tree.links.new(share.outputs["Color"], shader.inputs["Color"])
+        if total:
+            both = tree.nodes.new("ShaderNodeAddShader")
+            tree.links.new(total.outputs[0], both.inputs[0])
+            tree.links.new(shader.outputs[0], both.inputs[1])
+            shader = both
+        total = shader
+    tree.links.new(total.outputs[0], output.inputs["Surface"])
+    return made, colors
+
+
+def stretched(tree, roughness, strength, turn):
+    """KHR_materials_anisotropy in the words of Blender, whose two widths have the same product for any anisotropy."""
+    across = roughness * roughness
+    along = across + (1.0 - across) * strength * strength
+    shader = tree.nodes.new("ShaderNodeBsdfAnisotropic")
+    shader.distribution = "GGX"
+    shader.inputs["Roughness"].default_value = (along * across) ** 0.25
+    shader.inputs["Anisotropy"].default_value = (across / along) ** 0.5 - 1.0
+    shader.inputs["Rotation"].default_value = turn / (2.0 * math.pi)
+    tangent = tree.nodes.new("ShaderNodeTangent")
+    tangent.direction_type, tangent.axis = "RADIAL", "Y"
+    tree.links.new(tangent.outputs[0], shader.inputs["Tangent"])
+    return shader
+
 
 def build(told):
     materials = {}
+    of_layers = {name: lobes for name, _, lobes in told.get("lobes", [])}
     for number, mesh in enumerate(told["meshes"]):
         data = bpy.data.meshes.new(f"mesh{number}")
         data.from_pydata(mesh.positions, [], mesh.triangles)
         data.use_auto_smooth = True
         data.polygons.foreach_set("use_smooth", [True] * len(data.polygons))
         data.normals_split_custom_set_from_vertices(mesh.normals)
-        data.materials.append(materials.setdefault(mesh.material, None) or material(mesh.material))
-        materials[mesh.material] = data.materials[0]
-        scene.collection.objects.link(bpy.data.objects.new(data.name, data))
+        if mesh.material in of_layers:
+            made, colors = of_lobes(mesh.material, of_layers[mesh.material], (mesh.positions, mesh.normals))
+            for lobe, of_corners in enumerate(colors):
+                kept = data.attributes.new(f"lobe{lobe}", "FLOAT_COLOR", "POINT")
+                kept.data.foreach_set("color", [x for c in of_corners for x in (*c, 1.0)])
+            data.materials.append(made)
+        else:
+            data.materials.append(materials.setdefault(mesh.material, None) or material(mesh.material))
+            materials[mesh.material] = data.materials[0]
+        thing = bpy.data.objects.new(data.name, data)
+        scene.collection.objects.link(thing)
+        if "alone" in told:  # lights nothing, hides nothing; stripes are seen through panes
+            thing.visible_diffuse = thing.visible_glossy = thing.visible_shadow = False
     if told["sun"]:
         sun = bpy.data.lights.new("sun", "SUN")
         sun.energy, sun.angle = told["sun"]["lux"], 0.0
@@ -145,6 +213,8 @@ scene.world = bpy.data.worlds.new("sky")
 scene.world.use_nodes = True
 scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
 scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = sky
+if name == "layers_even":
+    scene.world.cycles_visibility.camera = False
 render, cycles = scene.render, scene.cycles
 render.engine = "CYCLES"
 render.resolution_x, render.resolution_y = scenes.SIZE
@@ -154,6 +224,8 @@ cycles.device, cycles.seed = "CPU", 1
 cycles.samples = int(rest[0]) if rest else 256
 cycles.use_adaptive_sampling = cycles.use_denoising = False
 cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = bounces
+if name == "layers_even":  # through a pane and no farther
+    cycles.max_bounces = cycles.transmission_bounces = 1
 cycles.sample_clamp_indirect = 0.0
 cycles.blur_glossy = 0.0
 # What rough stone mirrors onto other surfaces is a tenth to a fifth of the light between them.

@@ -1,4 +1,4 @@
-"""Small scenes whose materials and lights mean the same to any renderer: Lambert, and white metals of GGX.
+"""Small scenes whose materials and lights mean the same to any renderer: Lambert, white metals of GGX, glTF's layers.
 
 Each is told once and becomes a glTF file with a scenario for Petrichor (write()) and meshes for Blender
 (render_cycles.py). Metres, y up; a camera looks along its own -z. Light in lux, candela and cd/m2.
@@ -8,76 +8,8 @@ import math
 import pathlib
 import struct
 
-
-class Mesh:
-    """Triangles with a normal at each corner."""
-
-    def __init__(self, material):
-        self.material = material
-        self.positions, self.normals, self.triangles = [], [], []
-
-    def quad(self, corner, u, v):
-        """A parallelogram that is seen from where u turns to v against the clock."""
-        n = unit(cross(u, v))
-        first = len(self.positions)
-        for s, t in ((0, 0), (1, 0), (1, 1), (0, 1)):
-            self.positions.append(tuple(corner[i] + s * u[i] + t * v[i] for i in range(3)))
-            self.normals.append(n)
-        self.triangles += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
-        return self
-
-    def box(self, low, high, turn=0.0):
-        size = [high[i] - low[i] for i in range(3)]
-        middle = [0.5 * (low[i] + high[i]) for i in range(3)]
-        c, s = math.cos(turn), math.sin(turn)
-
-        def turned(x, y, z):
-            return (c * x + s * z, y, c * z - s * x)
-
-        for axis in range(3):
-            for side in (-1, 1):
-                u, v, n = [0.0] * 3, [0.0] * 3, [0.0] * 3
-                a, b = (axis + 1) % 3, (axis + 2) % 3
-                u[a], v[b], n[axis] = size[a], side * size[b], side * 0.5 * size[axis]
-                corner = turned(*[n[i] - 0.5 * u[i] - 0.5 * v[i] for i in range(3)])
-                self.quad(tuple(middle[i] + corner[i] for i in range(3)), turned(*u), turned(*v))
-        return self
-
-    def ball(self, centre, radius, rings=96):
-        first = len(self.positions)
-        for i in range(rings + 1):
-            theta = math.pi * i / rings
-            for j in range(2 * rings + 1):
-                phi = math.pi * j / rings
-                n = (math.sin(theta) * math.cos(phi), math.cos(theta), math.sin(theta) * math.sin(phi))
-                self.normals.append(n)
-                self.positions.append(tuple(centre[k] + radius * n[k] for k in range(3)))
-        row = 2 * rings + 1
-        for i in range(rings):
-            for j in range(2 * rings):
-                a = first + i * row + j
-                if i > 0:
-                    self.triangles.append((a, a + 1, a + row + 1))
-                if i < rings - 1:
-                    self.triangles.append((a, a + row + 1, a + row))
-        return self
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def unit(a):
-    size = math.sqrt(sum(x * x for x in a))
-    return tuple(x / size for x in a)
-
-
-def looking(position, at):
-    """Columns of the axes of something that looks along its own -z, and where it is."""
-    z = unit(tuple(position[i] - at[i] for i in range(3)))
-    x = unit(cross((0.0, 1.0, 0.0), z))
-    return x, cross(z, x), z, position
-
+import layers
+from meshes import Mesh, looking, unit
 
 MATT = {"grey": (0.5, 0.5, 0.5), "white": (0.8, 0.8, 0.8), "red": (0.7, 0.15, 0.1),
         "green": (0.15, 0.6, 0.2), "blue": (0.1, 0.2, 0.7)}
@@ -128,10 +60,10 @@ def lambert_sky():
 
 
 STREET = {"lux": 3.0, "towards": unit((0.35, 0.62, 0.55)), "sky": 0.3}
-SCENES = {f.__name__: f for f in (lambert_sun, ggx_lamps, lambert_bounce, lambert_sky)}
+SCENES = {f.__name__: f for f in (lambert_sun, ggx_lamps, lambert_bounce, lambert_sky, layers.layers_sun, layers.layers_even)}
 # Light that one surface sends another is solved on patches; light of lamps and sun is exact.
 LIMITS = {"lambert_sun": (0.01, 0.03), "ggx_lamps": (0.01, 0.03), "lambert_bounce": (0.05, 0.06), "lambert_sky": (0.05, 0.06),
-          "street": (None, 0.076)}
+          "layers_sun": (0.01, 0.03), "layers_even": (0.01, 0.045), "street": (None, 0.076)}
 SIZE = (320, 180)
 
 
@@ -142,9 +74,10 @@ def matrix(axes):
 
 def glb(scene):
     """The scene as a binary glTF file."""
-    names = [*MATT, *METAL]
-    materials = [{"name": n, "pbrMetallicRoughness": {"baseColorFactor": [*c, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}} for n, c in MATT.items()]
-    materials += [{"name": n, "pbrMetallicRoughness": {"baseColorFactor": [1.0] * 4, "metallicFactor": 1.0, "roughnessFactor": r}} for n, r in METAL.items()]
+    own = scene.get("materials", {})
+    names = list(own) or [*MATT, *METAL]
+    materials = [{"name": n, **told} for n, told in own.items()] or [{"name": n, "pbrMetallicRoughness": {"baseColorFactor": [*c, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}} for n, c in MATT.items()] + [
+        {"name": n, "pbrMetallicRoughness": {"baseColorFactor": [1.0] * 4, "metallicFactor": 1.0, "roughnessFactor": r}} for n, r in METAL.items()]
     binary, views, accessors, meshes, nodes, lights = b"", [], [], [], [], []
 
     def add(data, target, **facts):
@@ -160,8 +93,11 @@ def glb(scene):
         p = add(b"".join(struct.pack("<3f", *x) for x in mesh.positions), 34962, componentType=5126, count=count, type="VEC3",
                 min=[min(c) for c in columns], max=[max(c) for c in columns])
         n = add(b"".join(struct.pack("<3f", *x) for x in mesh.normals), 34962, componentType=5126, count=count, type="VEC3")
+        attributes = {"POSITION": p, "NORMAL": n}
+        if own and mesh.tangents:
+            attributes["TANGENT"] = add(b"".join(struct.pack("<4f", *x) for x in mesh.tangents), 34962, componentType=5126, count=count, type="VEC4")
         t = add(b"".join(struct.pack("<3I", *x) for x in mesh.triangles), 34963, componentType=5125, count=3 * len(mesh.triangles), type="SCALAR")
-        meshes.append({"primitives": [{"attributes": {"POSITION": p, "NORMAL": n}, "indices": t, "material": names.index(mesh.material)}]})
+        meshes.append({"primitives": [{"attributes": attributes, "indices": t, "material": names.index(mesh.material)}]})
         nodes.append({"mesh": len(meshes) - 1})
     if scene["sun"]:
         lights.append({"type": "directional", "intensity": scene["sun"]["lux"], "color": [1.0, 1.0, 1.0]})
@@ -175,8 +111,8 @@ def glb(scene):
     document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes, "meshes": meshes,
                 "materials": materials, "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}],
                 "cameras": [{"type": "perspective", "perspective": {"yfov": scene["fov"], "aspectRatio": SIZE[0] / SIZE[1], "znear": 0.05, "zfar": 100.0}}]}
+    document["extensionsUsed"] = sorted({e for m in materials for e in m.get("extensions", {})} | ({"KHR_lights_punctual"} if lights else set()))
     if lights:
-        document["extensionsUsed"] = ["KHR_lights_punctual"]
         document["extensions"] = {"KHR_lights_punctual": {"lights": lights}}
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
@@ -192,13 +128,14 @@ def even_sky():
 def scenario(name, scene, samples):
     """What Petrichor is asked for: this light and nothing else."""
     around = scene["sky"] > 0.0 or scene["bounces"] > 0
+    alone = "alone" in scene
     lines = ["[scene]", f'file = "{name}.glb"', 'ground = "none"', "[sun]", 'source = "scene"', "[sky]", 'environment = "even.hdr"',
-             f"environment_scale = {scene['sky']}", "[fog]", 'mode = "off"', "[weather]", 'keys = [{ time_s = 0.0, temperature_c = 15.0, rainfall = 0.0 }]', "duration_s = 1.0", "[lights]", 'lamps = "on"', "[render]",
+             f"environment_scale = {scene['sky']}", "[fog]", 'mode = "off"', "[weather]", 'keys = [{ time_s = 0.0, temperature_c = 15.0, rainfall = 0.0 }]', "duration_s = 1.0", "[lights]", 'lamps = "on"', f"emissive = {str(not alone).lower()}", "[render]",
              "reflections = false", "dither = false", "lamp_glow = false", "falling = false", "specular_aa = 0.0", "adaptive = 0.0",
-             "lamp_shadows = 16", f"image_based_light = {str(around).lower()}", f"ambient_occlusion = {str(around).lower()}",
-             f'indirect = "{"patches" if around else "ambient"}"', 'probes = "off"', f"draw_sky = {str(scene['sky'] > 0.0).lower()}",
+             "lamp_shadows = 16", f"image_based_light = {str(around).lower()}", f"ambient_occlusion = {str(around and not alone).lower()}",
+             f'indirect = "{"patches" if around and not alone else "ambient"}"', 'probes = "off"', f"draw_sky = {str(scene['sky'] > 0.0 and not alone).lower()}",
              "[output]", f"width = {SIZE[0]}", f"height = {SIZE[1]}", f"samples = {samples}", "frames = 1", "film = false"]
-    for matt in MATT:
+    for matt in [] if "materials" in scene else MATT:
         lines += [f'[materials."{matt}"]', 'lighting_model = "lambert"']
     return "\n".join(lines) + "\n"
 

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "scene/gltf/detail/meshopt.h"
+#include "scene/gltf/detail/meshopt_views.h"
 #include "scene/gltf/gltf.h"
 #include "tests/scene/gltf_helpers.h"
 #include "tests/support/gltf_builder.h"
@@ -286,6 +287,28 @@ TEST(MeshoptView, StandsInForItsBytes)
     b.document["bufferViews"].back()["extensions"]["EXT_meshopt_compression"]["count"] = 1e9;
     b.document["bufferViews"].back()["byteLength"] = 12e9;
     EXPECT_THROW(load_gltf(b.glb(), "packed.glb", nullptr), Error);
+}
+
+// Views of all kinds in one run of the child, one of them damaged: the others come back whole.
+TEST(MeshoptView, TheChildUnpacksAllOfAFile)
+{
+    const auto first = from_hex("a01f00301b57691730c54218374bf3352c543e0b460435716f031e730c144b65a52bffff0000"
+                                "2a441c34421549971f002a460637a35d290c47172c3b716f251840044258092fed491f18830a"
+                                "405963ffff0000530d34212e56782b002a034343434343434343434343434343434343434300"
+                                "0000000000000000000000000000000000000000000000000000000000000000007f81");
+    auto damaged = first;
+    damaged[0] = std::byte{0x55};
+    const auto view = [](const std::vector<std::byte>& bytes, MeshoptFilter filter) {
+        return MeshoptView{bytes, 40, 4, MeshoptMode::Attributes, filter};
+    };
+    const std::vector<MeshoptView> views{view(first, MeshoptFilter::Octahedral), view(damaged, MeshoptFilter::None),
+                                         view(first, MeshoptFilter::None)};
+    const auto unpacked = unpack_meshopt_views(views, "packed.glb");
+    ASSERT_EQ(unpacked.size(), 3u);
+    for (const std::size_t i : {0u, 2u})
+        EXPECT_EQ(unpacked[i], unpack_meshopt(first, 40, 4, MeshoptMode::Attributes, views[i].filter)) << i;
+    EXPECT_NE(unpacked[0], unpacked[2]);
+    EXPECT_FALSE(unpacked[1]);
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ vec3 shape_highlight(LitPoint p, vec3 in_lobe, vec3 in_second, float highlight)
         const vec3 other = mirrored_by(p.specular, p.shaped.second_sum) * cosine_share(in_second);
         mirrored = mix(mirrored, other, p.second.share);
     }
-    return mirrored * (highlight * kept * kept);
+    return mirrored * (highlight * kept);
 }
 
 // By linearly transformed cosines. Highlights of other shapes than GGX's, of coats, fibres and hair, are

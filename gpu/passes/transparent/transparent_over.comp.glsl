@@ -86,9 +86,11 @@ vec3 seen_through(vec2 pixel, ivec2 texel, vec3 position, vec3 view, vec3 normal
     if (there_m < layer_m * 0.999) at = pixel;
     const float behind_m =
         max(solid_m(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1)), layer_m);
-    // A lobe through a thin pane spreads about as one that is mirrored, less the less it bends.
-    const float alpha = roughness * roughness * clamp(2.0 * ior - 2.0, 0.0, 1.0);
-    const float wide_m = alpha * (behind_m - layer_m + thickness_m);
+    // A lobe through a thin pane spreads about as one that is mirrored, less the less it bends. In a body a
+    // facet turns the ray by 1 - 1 / ior of its own tilt, half of which are above alpha: as in a disc whose
+    // radius is the root of 2 times that.
+    const float bends = thickness_m > 0.0 ? 1.41421356 * (1.0 - 1.0 / max(ior, 1.0)) : clamp(2.0 * ior - 2.0, 0.0, 1.0);
+    const float wide_m = roughness * roughness * bends * max(behind_m - layer_m, thickness_m);
     const float pixel_m = pixel_width_m(frame, behind_m);
     const float radius = clamp(wide_m / max(pixel_m, 1.0e-6), 0.0, 0.12 * float(frame.size.y));
     return solid_around(at, radius, texel, layer_m);

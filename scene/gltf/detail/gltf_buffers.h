@@ -84,8 +84,7 @@ public:
 private:
     std::span<const std::byte> buffer(std::uint32_t index);
     std::span<const std::byte> range_of(const JsonObject& json);
-    std::span<const std::byte> unpacked_view(const JsonObject& json, const JsonObject& view_json,
-                                             std::uint32_t index);
+    void unpack_views();
     Accessor read_accessor(const JsonObject& json);
     void read_sparse(const JsonObject& json, Accessor& accessor);
 
