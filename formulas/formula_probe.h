@@ -29,6 +29,7 @@
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/patch_cells.h"
 #include "formulas/light/rain_clouds.h"
+#include "formulas/light/rain_curtains.h"
 #include "formulas/light/reflection_probe.h"
 #include "formulas/light/seen_lobe.h"
 #include "formulas/light/second_lobe.h"
@@ -53,6 +54,7 @@
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/snow_body.h"
 #include "formulas/weather/snow_glints.h"
+#include "formulas/weather/run_off.h"
 #include "formulas/weather/soaked_walls.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/wander.h"
@@ -60,7 +62,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 70;
+SHARED_CONST int kProbeKinds = 72;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -623,6 +625,16 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 drift_m = 400.0f * vec2(b.x, b.y);
         return vec4(layer_relief_wide(up, drift_m, 0.004f + 0.1f * b.w, b.z), 1.0f + rags_hide(up, drift_m, 0.02f * c.x, b.z),
                     layer_relief(c.y, c.z, b.z) + layer_heavy(c.y, c.z, 12.0f * c.w, b.z), fog_from_above(2.0f * a.y - 1.0f, a.w));
+    }
+    if (kind == 70) {
+        const vec3 low = normalize(vec3(2.0f * a.x - 1.0f, 0.8f * a.y, 2.0f * a.z - 1.0f));
+        const vec2 rains = rain_curtains(low, 400.0f * vec2(b.x, b.y), 2.0f * vec2(c.x, c.y) - splat2(1.0f), b.z);
+        return vec4(rains.x, 1.0f + rains.y, 1.0f + curtain_cell(20.0f * vec2(a.x, c.z), a.w, 350u), fog_before_clouds(b.w, c.w));
+    }
+    if (kind == 71) {
+        const RunOff off = run_off(40.0f * a.x - 20.0f, 12.0f * a.y - 2.0f, 30.0f * a.z, 0.04f * a.w * a.w);
+        const vec3 along = along_wall(vec3(b.x - 0.5f, b.y, b.z - 0.5f));
+        return vec4(1.0f + off.thick, 2.0f + off.lean.x, 2.0f + off.lean.y, upright(2.0f * b.w - 1.0f) + along.x + 2.0f * along.z);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

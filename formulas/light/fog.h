@@ -68,6 +68,13 @@ SHARED_FN float fog_beyond_haze(float per_m)
     return max(per_m - 3.912f / 20000.0f, 0.0f);
 }
 
+// What of the air's extinction hides things as wide as clouds. rain_per_m: the part that is rain's, by its drops: half of what
+// a drop takes from a ray it only bends by less than half a degree.
+SHARED_FN float fog_before_clouds(float per_m, float rain_per_m)
+{
+    return per_m - 0.5f * clamp(rain_per_m, 0.0f, per_m);
+}
+
 // What fog that is lit from above sends in a direction with the cosine `up` to the vertical, over an even sky's light on the
 // ground / pi: along the ground half of what it scatters comes from the sky (0.86 in the mean of all directions of an
 // overcast one) and half from the land; upwards it is as much brighter as leaves three quarters of that light on the ground.

@@ -11,11 +11,14 @@
 
 SHARED_BEGIN
 
-// How far a surface is such a wall, 0..1. up: y of the normal of the material; porosity 0..1, of what is matt.
-SHARED_FN float drinking_wall(float up, float porosity)
-{
-    return (1.0f - smooth_edge(0.25f, 0.6f, abs(up))) * saturate(2.0f * porosity);
-}
+// How far a surface is a wall, 0..1. up: y of the normal of the material.
+SHARED_FN float upright(float up) { return 1.0f - smooth_edge(0.25f, 0.6f, abs(up)); }
+
+// How far it is one that drinks. porosity 0..1, of what is matt.
+SHARED_FN float drinking_wall(float up, float porosity) { return upright(up) * saturate(2.0f * porosity); }
+
+// Which way a wall goes, of the two axes of the world: bumps turn the normal, and a place along it must not jump with them.
+SHARED_FN vec3 along_wall(vec3 normal) { return abs(normal.x) > abs(normal.z) ? vec3(0.0f, 0.0f, 1.0f) : vec3(1.0f, 0.0f, 0.0f); }
 
 // Share of the film that stays a film there: while it pours water runs over what is soaked.
 SHARED_FN float film_not_drunk(float wall, float pouring) { return 1.0f - wall * (0.8f - 0.4f * pouring); }

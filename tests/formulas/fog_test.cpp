@@ -60,6 +60,13 @@ TEST(Fog, TheLandLiesBehindTheMoreTheHigherTheEye)
     EXPECT_EQ(fog_path_to_land(-0.3f, -5.0f, 120.0f), 0.0f) << "below the land";
 }
 
+TEST(Fog, CloudsAreSeenThroughHalfOfWhatRainTakes)
+{
+    EXPECT_EQ(fog_before_clouds(0.002f, 0.0f), 0.002f) << "fog hides them whole";
+    EXPECT_FLOAT_EQ(fog_before_clouds(0.002f, 0.001f), 0.0015f);
+    EXPECT_FLOAT_EQ(fog_before_clouds(0.002f, 0.01f), 0.001f) << "of rain that takes more than the sight tells";
+}
+
 TEST(Fog, ScattersAllThatItTakes)
 {
     double sum = 0.0;

@@ -1,5 +1,6 @@
 // Clouds that bring rain look like it, and light the land as those that do not.
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <vector>
 
@@ -67,6 +68,28 @@ TEST_F(RainClouds, AreDarkBelowWithLightBetween)
     const Range dry = range(0.0f), wet = range(1.0f);
     EXPECT_LT(wet.low, 0.8f * dry.low);
     EXPECT_GT(wet.high / wet.low, 1.5f * dry.high / dry.low);
+}
+
+// A strip over the horizon, seen from open land through a cloudburst's own air.
+TEST_F(RainClouds, AreSeenLowOverOpenLand)
+{
+    renderer->load(small_ground(), {});
+    const auto contrast = [&](float rain) {
+        std::vector<float> seen;
+        for (const float turned : {0.0f, 2.1f, 4.2f}) {
+            Frame frame = up_into_the_sky(rain, 0.0f);
+            frame.camera = look({0, 1.7f, 0}, {10 * std::sin(turned), 2.7f, -10 * std::cos(turned)}, 1.0f);
+            frame.weather.rain_kg_m2_s = rain * 7.0f / 3600.0f;
+            frame.weather.visibility_m = 3800.0f;
+            const RenderResult r = renderer->render(frame);
+            for (int y = 20; y < 36; ++y)
+                for (int x = 0; x < 96; ++x) seen.push_back(luminance_at(r, x, y));
+        }
+        std::sort(seen.begin(), seen.end());
+        return seen[seen.size() - seen.size() / 20] / seen[seen.size() / 20];
+    };
+    EXPECT_GT(contrast(0.5f), 1.6f);
+    EXPECT_LT(contrast(0.0f), 1.3f);
 }
 
 // Where no cloud is, rain changes nothing of the sky.

@@ -15,6 +15,7 @@
 #include "formulas/light/occlusion_points.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/sun_cookie.h"
+#include "formulas/weather/run_off.h"
 #include "formulas/weather/soaked_walls.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
@@ -166,10 +167,18 @@ void main()
                 film = water_film(dry, state, frame.weather);
                 // A loop that ends at once where no wall drinks: a CPU takes both sides of a branch.
                 const float wall = state.film > 0.0 ? drinking_wall(g.base_normal.y, dry.porosity * (1.0 - dry.metallic)) : 0.0;
+                const vec3 along = along_wall(g.base_normal);
+                // And one where water runs down, over stone and wood as over plaster; on glass it stands in beads.
+                const float runs = film.share > 0.0 ? upright(g.base_normal.y) * saturate(2.0 * frame.weather.rain) *
+                                                          smooth_edge(0.15, 0.3, dry.roughness) : 0.0;
+                RunOff off;
+                off.thick = kRunOffMean;
+                off.lean = vec2(0.0);
+                for (int once = 0; once < (runs > 0.0 ? 1 : 0); ++once)
+                    off = run_off(dot(position, along), position.y, frame.time_s, pixel_width_m(frame, view_m));
                 for (int once = 0; once < (wall > 0.0 ? 1 : 0); ++once) {
-                    const float along_m = dot(position.xz, vec2(-g.base_normal.z, g.base_normal.x));
-                    state.film = mix(state.film, soaked_share(state.film, along_m, position.y), wall);
-                    film.share *= film_not_drunk(wall, saturate(2.0 * frame.weather.rain));
+                    state.film = mix(state.film, soaked_share(state.film, dot(position, along), position.y), wall);
+                    film.share *= film_not_drunk(wall, min(saturate(2.0 * frame.weather.rain) * off.thick / kRunOffMean, 2.0));
                 }
                 m = apply_weather(dry, state, below, frame.look);
                 m = below_film(m, film.share);
@@ -180,7 +189,8 @@ void main()
                 }
                 vec3 below_normal = g.base_normal;
                 if (TWO_LOBES) below_normal = mix(below_normal, beside.normal, beside.share);
-                film.normal = normalize(mix(below_normal, g.cover_normal, film.level));
+                film.normal = normalize(mix(below_normal, g.cover_normal, film.level) +
+                                        (off.lean.x * along + off.lean.y * vec3(0.0, 1.0, 0.0)) * runs);
                 const float film_facing = dot(film.normal, v);
                 if (film_facing < 0.02) film.normal = normalize(film.normal + v * (0.02 - film_facing));
             } else {

@@ -9,6 +9,7 @@
 #include "formulas/light/cube_quads.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/rain_clouds.h"
+#include "formulas/weather/falling.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/sky_quads_io.h"
@@ -128,6 +129,11 @@ void see_clear_sky(SkyMaps& maps, const shared::SkyParams& p)
     maps.level_of = seen;
 }
 
+float rain_per_m(const shared::WeatherMoment& weather)
+{
+    return shared::rain_extinction_per_m(weather.rain_kg_m2_s * 3600.0f, 0.0f, 20.0f);
+}
+
 // Light on level ground of a closed layer without its rain, over that with it: rain moves light about the sky, it makes none.
 float relief_gain(const shared::SkyParams& p)
 {
@@ -166,7 +172,8 @@ shared::SkyParams sky_params(const Frame& frame, SkyMaps& maps)
     p.relief_gain = relief_gain(p);
     p.night_radiance = glm::mix(kClearNight, kCloudyNight, p.cloud_cover);
     p.fog_per_m = fog_per_m(frame);
-    if (frame.fog.mode == FogMode::Metres) p.fog_per_m = shared::fog_beyond_haze(p.fog_per_m);
+    if (frame.fog.mode == FogMode::Metres)
+        p.fog_per_m = shared::fog_before_clouds(shared::fog_beyond_haze(p.fog_per_m), rain_per_m(frame.weather));
     if (p.fog_per_m > 0.0f) {
         p.fog_mode = static_cast<int>(frame.fog.mode);
         p.fog_start_m = frame.fog.start_m;

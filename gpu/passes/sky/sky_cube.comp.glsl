@@ -7,6 +7,7 @@
 #include "formulas/light/brdf.h"
 #include "formulas/light/cube_map.h"
 #include "formulas/light/fog.h"
+#include "formulas/light/rain_curtains.h"
 #include "gpu/passes/sky/clouds.glsl"
 #include "gpu/passes/sky/sky_io.h"
 
@@ -62,6 +63,7 @@ void main()
     vec3 radiance = vec3(0.0);
     float seen_through = 1.0;
     float relief = 1.0;
+    vec3 curtains = vec3(1.0);
     // A loop, which is left when a group of texels is of the land alone: a branch is not.
     for (int once = 0; once < (direction.y > -0.06 ? 1 : 0); ++once) {
         radiance = clear_air(seen);
@@ -73,6 +75,10 @@ void main()
         seen_through = 1.0 - clouds.hides * haze;
         // Rain and fog are lit by all clouds around them, most by those they hang under.
         relief += 0.5 * sky.rain * clouds.hides * (sky.relief_gain * layer_relief(clouds.heavy, clouds.hidden, sky.rain) - 1.0);
+        for (int wet = 0; wet < (sky.rain * clouds.hides > 0.0 && direction.y < kCurtainEnds ? 1 : 0); ++wet) {
+            const vec2 rains = rain_curtains(seen, sky.time_s * sky.wind_m_s, sky.wind_m_s * kCurtainLean_per_m_s, sky.rain);
+            curtains = mix(vec3(1.0), rains.x * (1.0 + rains.y * vec3(-0.05, 0.0058, 0.09)), clouds.hides);
+        }
     }
     radiance += sky.night_radiance * vec3(0.75, 0.85, 1.1);
     const float below = smoothstep(0.0, -0.06, direction.y);
@@ -83,5 +89,6 @@ void main()
         const vec3 lit = light_under_clouds(sky) + sky.night_radiance * kPi;
         radiance = mix(fog_radiance(direction, lit, relief), radiance, kept_by_fog(direction.y));
     }
+    radiance *= mix(curtains, vec3(1.0), below);
     imageStore(target, id, vec4(min(radiance, vec3(60000.0)), seen_through));
 }
