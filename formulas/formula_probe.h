@@ -5,6 +5,7 @@
 
 #include "formulas/codec/half.h"
 #include "formulas/codec/octahedral.h"
+#include "formulas/codec/shared_exponent.h"
 #include "formulas/color/tone_map.h"
 #include "formulas/color/white_balance.h"
 #include "formulas/geometry/footprint.h"
@@ -36,6 +37,7 @@
 #include "formulas/light/shadow_plane.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
+#include "formulas/light/vertex_light.h"
 #include "formulas/light/water_film.h"
 #include "formulas/light/wet_lens.h"
 #include "formulas/light/spherical_harmonics.h"
@@ -60,7 +62,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 70;
+SHARED_CONST int kProbeKinds = 71;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -623,6 +625,14 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 drift_m = 400.0f * vec2(b.x, b.y);
         return vec4(layer_relief_wide(up, drift_m, 0.004f + 0.1f * b.w, b.z), 1.0f + rags_hide(up, drift_m, 0.02f * c.x, b.z),
                     layer_relief(c.y, c.z, b.z) + layer_heavy(c.y, c.z, 12.0f * c.w, b.z), fog_from_above(2.0f * a.y - 1.0f, a.w));
+    }
+    if (kind == 70) {
+        const vec3 to_lamp = (0.2f + 6.0f * a.z) * probe_direction(a.x, a.y);
+        const float outer = c.w < 0.3f ? -2.0f : 0.1f + 0.4f * c.z;
+        const float falloff = vertex_falloff(to_lamp, 1.0f + 6.0f * a.w, probe_direction(b.x, b.y), 0.55f + 0.4f * b.z, outer);
+        const LitSides lit = lit_sides(probe_direction(c.x, c.y), to_lamp, splat3(1.0f));
+        const vec3 kept = shared_exponent_value(shared_exponent_code(1000.0f * c.x * vec3(a.x, 0.1f * a.y, a.z * a.z)));
+        return vec4(falloff, lit.front.x - lit.back.y, kept.x + kept.y, kept.z);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
