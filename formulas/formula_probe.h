@@ -5,6 +5,7 @@
 
 #include "formulas/codec/half.h"
 #include "formulas/codec/octahedral.h"
+#include "formulas/codec/shared_exponent.h"
 #include "formulas/color/tone_map.h"
 #include "formulas/color/white_balance.h"
 #include "formulas/geometry/footprint.h"
@@ -37,6 +38,7 @@
 #include "formulas/light/shadow_plane.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
+#include "formulas/light/vertex_light.h"
 #include "formulas/light/water_film.h"
 #include "formulas/light/wet_lens.h"
 #include "formulas/light/spherical_harmonics.h"
@@ -62,7 +64,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 72;
+SHARED_CONST int kProbeKinds = 73;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -635,6 +637,14 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const RunOff off = run_off(40.0f * a.x - 20.0f, 12.0f * a.y - 2.0f, 30.0f * a.z, 0.04f * a.w * a.w);
         const vec3 along = along_wall(vec3(b.x - 0.5f, b.y, b.z - 0.5f));
         return vec4(1.0f + off.thick, 2.0f + off.lean.x, 2.0f + off.lean.y, upright(2.0f * b.w - 1.0f) + along.x + 2.0f * along.z);
+    }
+    if (kind == 72) {
+        const vec3 to_lamp = (0.2f + 6.0f * a.z) * probe_direction(a.x, a.y);
+        const float outer = c.w < 0.3f ? -2.0f : 0.1f + 0.4f * c.z;
+        const float falloff = vertex_falloff(to_lamp, 1.0f + 6.0f * a.w, probe_direction(b.x, b.y), 0.55f + 0.4f * b.z, outer);
+        const LitSides lit = lit_sides(probe_direction(c.x, c.y), to_lamp, splat3(1.0f));
+        const vec3 kept = shared_exponent_value(shared_exponent_code(1000.0f * c.x * vec3(a.x, 0.1f * a.y, a.z * a.z)));
+        return vec4(falloff, lit.front.x - lit.back.y, kept.x + kept.y, kept.z);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -14,6 +14,7 @@
 #include "gpu/passes/background/background.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
+#include "gpu/passes/lighting/lighting_io.h"
 #include "gpu/passes/lights/lights_io.h"
 #include "gpu/passes/patch_light/patch_points.h"
 #include "gpu/passes/reflections/reflections.h"
@@ -400,6 +401,12 @@ void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const Fallin
     add_light_parts(graph, *r.targets, *r.parts, constants, settings.image_based_light);
 }
 
+// What light comes with the surfaces.
+std::uint32_t baked_kinds(const GpuScene& scene)
+{
+    return (scene.light_maps() ? LIGHTING_BAKED_MAPS : 0u) | (scene.vertex_lamps() ? LIGHTING_BAKED_VERTICES : 0u);
+}
+
 // What lets light through, over the solid picture: the same passes, on the targets of a layer.
 void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& constants,
                 const shared::FrameConstants& c, const VisibleWeather& weather,
@@ -407,14 +414,14 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
 {
     FrameTargets& layer = r.transparent->layer;
     variant.emission = true;
-    variant.baked = r.scene->baked();
+    variant.baked = baked_kinds(*r.scene);
     variant.fog = false;
     variant.shares = nullptr;
     variant.background = false;
     variant.parts = &r.parts->or_none(r.parts->layer);
     variant.pixels = Pixels::All;
     const auto draw = [&](const SurfaceLayer& between) {
-        add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, constants,
+        add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, *r.vertex_light, constants,
                     c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
     };
     const auto light = [&] {
@@ -476,6 +483,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     weather.falls = made_for_falls(directions.size(), *r.falls_before);
     const VisibleWeather made = made_for(weather, frame);
     if (settings.shelter && r.depth_maps->sky_valid) add_depth_quads(graph, *r.depth_maps, directions);
+    r.vertex_light->add(graph, *r.scene, *r.lights, *r.light_tables);
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, *r.triangles, r.lights->shadowed);
 
@@ -494,7 +502,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.ambient_occlusion = settings.ambient_occlusion;
     variant.patch_light = uses_patches(frame, r);
     variant.emission = r.scene->emissive();
-    variant.baked = r.scene->baked();
+    variant.baked = baked_kinds(*r.scene);
     variant.gamma = settings.gamma;
     variant.lamp_shadows = !r.lights->shadowed.empty();
     variant.soft_lamps = soft_lamps;
@@ -559,9 +567,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                                    r.resolve->asked.get(), constants);
             }
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
-                                *r.depth_maps, *r.place, constants, made, listed);
+                                *r.depth_maps, *r.place, *r.vertex_light, constants, made, listed);
         } else {
-            add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place,
+            add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, *r.vertex_light,
                         constants, c.world_to_clip, c.camera_m, made, solid, nullptr, seen);
         }
         if (r.decals && decals_in_view(*r.scene, c.world_to_clip)) {

@@ -34,6 +34,7 @@ struct FrameResources {
     AdaptiveTargets* adaptive = nullptr;  ///< null: every sample shades every pixel
     DecalTargets* decals = nullptr;    ///< null: the scene has none
     LightTable* lights = nullptr;
+    VertexLight* vertex_light = nullptr;
     LampGlow* lamp_glow = nullptr;
     SeenTriangles* triangles = nullptr;
     FallingTable* falling = nullptr;

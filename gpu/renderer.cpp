@@ -11,6 +11,7 @@
 #include "gpu/snow/snow_body.h"
 #include "gpu/surface_path.h"
 #include "gpu/upload/draw.h"
+#include "scene/light_shape.h"
 
 namespace petrichor::gpu {
 
@@ -154,6 +155,7 @@ struct Renderer::Impl {
           metering(device),
           place(device),
           triangles(device),
+          vertex_light(device),
           light_arena(std::make_unique<MemoryArena>(device)),
           environment_arena(std::make_unique<MemoryArena>(device))
     {
@@ -188,6 +190,10 @@ struct Renderer::Impl {
         }
         lights.insert(lights.end(), frame.extra_lights.begin(), frame.extra_lights.end());
         facts.lamps = lights.size();
+        // Where vertices do not wait for them such lamps light pixels, and are mirrored as little.
+        for (Light& light : lights) {
+            if (scene::lit_by_vertex(light) && !scene->vertex_lamps()) light.specular = 0.0f;
+        }
         light_table = {};
         light_arena = std::make_unique<MemoryArena>(device);
         LightTableParams params{.shadows = frame.settings.shadows ? frame.settings.lamp_shadows : 0,
@@ -205,6 +211,7 @@ struct Renderer::Impl {
             };
         }
         light_table = make_light_table(device, *light_arena, lights, params);
+        vertex_light.prepare(scene->draws(), light_table, params.in_view);
         check_light_lists(device.limits(), light_table.count, frame.settings.width, frame.settings.height);
         if (light_table.count > kLightsAnywhere) {
             std::vector<shared::FrameConstants> views;
@@ -361,6 +368,7 @@ struct Renderer::Impl {
     TargetSet metering;  ///< of the small ones that tell their exposure
     GpuPlace place;
     SeenTriangles triangles;
+    VertexLight vertex_light;
     std::unique_ptr<MemoryArena> light_arena;
     LightTable light_table;
     std::unique_ptr<MemoryArena> environment_arena;
@@ -496,6 +504,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.lamp_shadows = &lamp_shadows;
     resources.sky = &sky;
     resources.lights = &light_table;
+    resources.vertex_light = &vertex_light;
     resources.lamp_glow = &lamp_glow;
     resources.triangles = &triangles;
     resources.falling = &falling;

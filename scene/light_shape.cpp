@@ -9,9 +9,15 @@ template <auto Member>
 LightProperty row(std::string_view name, std::string_view gltf, float low, float high,
                   std::string_view example, std::string_view help)
 {
-    return {name, gltf, low, high, example, help,
+    return {name, gltf, low, high, false, example, help,
             [](const LightShape& s) -> std::optional<float> { return s.*Member; },
             [](LightShape& s, float value) { s.*Member = value; }};
+}
+
+LightProperty as_flag(LightProperty property)
+{
+    property.flag = true;
+    return property;
 }
 
 float rectangle_area(const Light& light)
@@ -37,6 +43,9 @@ const std::vector<LightProperty>& light_table()
         row<&S::mask_channel>("mask_channel", "maskChannel", 0.0f, 3.0f, "0",
                               "where shadow masks hold its shadow: 1 green, 2 blue, 3 alpha, 0 nowhere; "
                               "`scene --bake shadow_mask` writes it"),
+        as_flag(row<&S::per_vertex>("per_vertex", "perVertex", 0.0f, 1.0f, "true",
+                                    "of a point or a spot: its light is worked out at vertices and is cheap, without "
+                                    "highlights, shadows and bumps of normal maps")),
     };
     return table;
 }
@@ -45,7 +54,12 @@ std::string shape_light(Light& light, const LightShape& shape)
 {
     const bool flat = shape.width_m || shape.height_m;
     const bool round = shape.radius_m || shape.length_m;
-    if (shape.specular) light.specular = *shape.specular;
+    const bool by_vertex = shape.per_vertex ? *shape.per_vertex > 0.5f : light.specular == kByVertex;
+    if (by_vertex && light.kind == LightKind::Directional) return "a directional light does not light by vertex";
+    if (by_vertex && (flat || light.kind == LightKind::Rectangle)) return "a rectangle does not light by vertex";
+    if (by_vertex) light.specular = kByVertex;
+    else if (shape.specular) light.specular = *shape.specular;
+    else if (light.specular == kByVertex) light.specular = 1.0f;
     if (shape.mask_channel) {
         if (*shape.mask_channel != std::floor(*shape.mask_channel)) return "the channel of a shadow mask is a whole number";
         light.mask_channel = static_cast<int>(*shape.mask_channel);
@@ -90,9 +104,15 @@ LightShape shape_of_light(const Light& light)
         shape.height_m = 2.0f * glm::length(light.half_v_m);
         shape.both_sides = light.both_sides;
     }
-    if (light.specular != 1.0f) shape.specular = light.specular;
+    if (light.specular == kByVertex) shape.per_vertex = 1.0f;
+    else if (light.specular != 1.0f) shape.specular = light.specular;
     if (light.mask_channel > 0) shape.mask_channel = static_cast<float>(light.mask_channel);
     return shape;
+}
+
+bool lit_by_vertex(const Light& light)
+{
+    return light.specular == kByVertex && (light.kind == LightKind::Point || light.kind == LightKind::Spot);
 }
 
 void turn_shape(Light& light)

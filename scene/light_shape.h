@@ -19,8 +19,14 @@ struct LightShape {
     std::optional<float> height_m = {};
     std::optional<float> specular = {};  ///< of its highlights
     std::optional<float> mask_channel = {};  ///< Light::mask_channel
+    std::optional<float> per_vertex = {};  ///< 1: kByVertex, 0: by pixel
     bool both_sides = false;        ///< of a rectangle
 };
+
+/// Light::specular of a lamp whose light is worked out at vertices: it has no highlights at all, and no shadows.
+inline constexpr float kByVertex = -1.0f;
+/// Whether it is such a lamp: a point or a spot, whatever its size.
+bool lit_by_vertex(const Light& light);
 
 /// One number of a shape, told once: glTF's extension PETRICHOR_lights_shape and the keys of
 /// [lamps."glob"] in a scenario are made from these rows.
@@ -29,6 +35,7 @@ struct LightProperty {
     std::string_view gltf;  ///< member of the extension
     float low = 0.0f;
     float high = 1.0f;
+    bool flag = false;      ///< true and false in files, 1 and 0 here
     std::string_view example;
     std::string_view help;
     std::optional<float> (*get)(const LightShape&) = nullptr;

@@ -18,6 +18,7 @@ const scene::LightProperty* find_row(const std::string& name)
 
 std::string range_of(const scene::LightProperty& row)
 {
+    if (row.flag) return "";
     return "; " + number_text(row.low) + " to " +
            number_text(row.high);
 }
@@ -56,7 +57,9 @@ std::vector<LampOverride> read_lamp_overrides(const toml::table& lamps, const st
         one.glob = std::string(glob.str());
         one.place = value.place();
         for (const auto& [name, entry] : value.entries(known)) {
-            if (const scene::LightProperty* row = find_row(name)) {
+            if (const scene::LightProperty* row = find_row(name); row && row->flag) {
+                one.shape.emplace_back(name, entry.boolean() ? 1.0f : 0.0f);
+            } else if (row) {
                 one.shape.emplace_back(name, static_cast<float>(entry.number(
                                                  static_cast<double>(row->low),
                                                  static_cast<double>(row->high))));

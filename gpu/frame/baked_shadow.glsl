@@ -4,6 +4,9 @@
 #ifndef PETRICHOR_GPU_FRAME_BAKED_SHADOW_GLSL
 #define PETRICHOR_GPU_FRAME_BAKED_SHADOW_GLSL
 
+// In place of the share: no map is here, what stands in the target is light of lamps at vertices.
+const float kBakedAtVertices = 2.0;
+
 const float kBakedShadowSteps = 28.0;
 
 struct BakedShadow {
@@ -42,7 +45,7 @@ uint baked_shadow_bits(float code)
 
 float baked_sky_of(float code)
 {
-    return code >= 0.0 ? code : float(baked_shadow_bits(code) / 2u % 8u) / 7.0;
+    return code == kBakedAtVertices ? 0.0 : code >= 0.0 ? code : float(baked_shadow_bits(code) / 2u % 8u) / 7.0;
 }
 
 BakedShadow baked_shadow_of(float code)

@@ -25,7 +25,8 @@ struct GBufferTexel {
     vec3 emission; // radiance
     float body;    // of a layer that light passes: share of its thickness
     vec3 baked;    // of the light map: what a white Lambert surface sends out
-    float baked_sky;  // share of skylight that is in it
+    float baked_sky;  // share of skylight that is in it; kBakedAtVertices, until it is read: it is no map
+    bool lamps_at_vertices;  // .. so what is in it came from those
     BakedShadow baked_shadow;
     vec3 lamp_mask;  // what the map says of lamps is seen, by their channels; not of layers that light passes
 };
@@ -120,6 +121,7 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint kept, uint flags)
     texel.lamp_mask = lamp_mask_of(code.emission.a);
     texel.baked = code.baked.rgb;
     texel.baked_sky = baked_sky_of(code.baked.a);
+    texel.lamps_at_vertices = code.baked.a == kBakedAtVertices;
     texel.baked_shadow = baked_shadow_of(code.baked.a);
     return texel;
 }

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "gpu/upload/detail/texel_format.h"
 #include "gpu/upload/draw.h"
+#include "scene/light_shape.h"
 #include "scene/shapes.h"
 
 namespace petrichor::gpu {
@@ -257,6 +258,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
     // Compute shaders fetch corners through texel views; a scene beyond their size has none.
     const std::size_t texels = std::max(vertices.size() * (sizeof(Vertex) / 16), indices.size());
     as_texels_ = texels > 0 && texels <= device.limits().maxTexelBufferElements;
+    vertex_lamps_ = as_texels_ && std::any_of(scene.lights.begin(), scene.lights.end(), scene::lit_by_vertex);
     const VkBufferUsageFlags texel_usage =
         as_texels_ ? VkBufferUsageFlags{VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT} : 0;
     const bool on_cpu = device.info().kind == "cpu";  // SeenTriangles reads both

@@ -187,7 +187,11 @@ public:
     const std::vector<Light>& glows() const { return glows_; }  ///< glowing surfaces as lights
     const Bounds& bounds() const { return bounds_; }
     bool emissive() const { return emissive_; }  ///< any material emits light
-    bool baked() const { return baked_; }        ///< any has a light map
+    /// Some light comes with the surface: of light maps, or of lamps at vertices.
+    bool baked() const { return light_maps_ || vertex_lamps_; }
+    bool light_maps() const { return light_maps_; }  ///< any material has one
+    /// Some lamps light by vertex; never where the vertices cannot be read.
+    bool vertex_lamps() const { return vertex_lamps_; }
     bool beads() const { return beads_; }  ///< on some of it a film stands in beads
     bool constant_weather() const { return constant_weather_; }  ///< any is wet or white by itself
     /// Lighting reads shares of layers a pixel: some material has textures of them.
@@ -269,7 +273,8 @@ private:
     OwnSurfaces own_surfaces_;
     Bounds bounds_;
     bool emissive_ = false;
-    bool baked_ = false;
+    bool light_maps_ = false;
+    bool vertex_lamps_ = false;
     bool decals_refused_ = false;
     bool constant_weather_ = false;
     bool beads_ = false;

@@ -287,7 +287,7 @@ void GpuScene::sum_up_materials()
         const bool shown = materials_[i].layers != 0 && (materials_[i].light_textures || smooth_coat);
         layer_shares_ = layer_shares_ || shown || softens(m);
     }
-    baked_ = any([](const Material& m) { return m.light_map.present(); });
+    light_maps_ = any([](const Material& m) { return m.light_map.present(); });
     decals_refused_ = !decals_.empty() && any([](const Material& m) { return !m.decal.received; });
     glows_ = glowing(glow_sources_, current_);
     point_lamps_ = any([](const Material& m) { return !m.area_lights; });

@@ -271,13 +271,13 @@ void SeenBinder::draw_run(const Draw& draw, std::uint32_t count, std::uint32_t f
     vkCmdDrawIndexed(commands_, draw.index_count, count, draw.first_index, draw.vertex_offset, first);
 }
 
-void SeenBinder::draw(const Draw& draw, const SeenRange& range)
+void SeenBinder::draw(const Draw& draw, const SeenRange& range, std::uint32_t instance)
 {
     bind(!range.whole());
     if (!range.whole()) {
-        vkCmdDrawIndexed(commands_, range.index_count, 1, range.first_index, draw.vertex_offset, 0);
+        vkCmdDrawIndexed(commands_, range.index_count, 1, range.first_index, draw.vertex_offset, instance);
     } else {
-        vkCmdDrawIndexed(commands_, draw.index_count, 1, draw.first_index, draw.vertex_offset, 0);
+        vkCmdDrawIndexed(commands_, draw.index_count, 1, draw.first_index, draw.vertex_offset, instance);
     }
 }
 

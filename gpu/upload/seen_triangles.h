@@ -125,7 +125,8 @@ public:
     }
     /// The part of the draw that is left; nothing of it: index_count is 0.
     SeenRange range_of(const Draw& draw) const;
-    void draw(const Draw& draw, const SeenRange& range);
+    ///   instance  that its vertices are told
+    void draw(const Draw& draw, const SeenRange& range, std::uint32_t instance = 0);
     /// `count` instances, numbered from `first`; always whole.
     void draw_run(const Draw& draw, std::uint32_t count, std::uint32_t first);
 

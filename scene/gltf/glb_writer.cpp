@@ -207,7 +207,9 @@ private:
         const scene::LightShape own = shape_of_light(light);
         for (const scene::LightProperty& row : scene::light_table()) {
             const auto value = row.get(own);
-            if (!row.gltf.empty() && value) shape[std::string(row.gltf)] = number(*value);
+            if (row.gltf.empty() || !value) continue;
+            if (row.flag) shape[std::string(row.gltf)] = *value > 0.5f;
+            else shape[std::string(row.gltf)] = number(*value);
         }
         if (own.both_sides) shape["bothSides"] = true;
         return shape;

@@ -32,8 +32,8 @@ void read_shape(const JsonObject& json, Light& light)
     if (!extension) return;
     LightShape shape;
     for (const LightProperty& row : light_table()) {
-        if (!row.gltf.empty() && extension->has(row.gltf))
-            row.set(shape, extension->number(row.gltf, 0.0f, row.low, row.high));
+        if (row.gltf.empty() || !extension->has(row.gltf)) continue;
+        row.set(shape, row.flag ? float(extension->flag(row.gltf, false)) : extension->number(row.gltf, 0.0f, row.low, row.high));
     }
     if (extension->has("bothSides")) shape.both_sides = extension->flag("bothSides", false);
     const std::string problem = shape_light(light, shape);

@@ -76,6 +76,31 @@ TEST(LampOverrides, RefuseShapesThatCannotBe)
     EXPECT_THAT(said("[lamps.\"spot\"]\nradius = 1\n"), HasSubstr("radius_m"));
 }
 
+// Later tables win, a size and the share of highlights do not bring a lamp back to pixels.
+TEST(LampOverrides, SayWhichLampsLightByVertex)
+{
+    const Scenario scenario = parse_scenario(
+        "[lamps.\"*\"]\nper_vertex = true\n[lamps.\"lantern b\"]\nper_vertex = false\n"
+        "[lamps.\"lantern a\"]\nradius_m = 0.1\nspecular = 0.5\n",
+        "s.toml");
+    scene::Scene scene = three_lamps();
+    apply_lamp_overrides(scenario.lamps, {}, scene);
+    EXPECT_TRUE(scene::lit_by_vertex(scene.lights[0]));
+    EXPECT_FALSE(scene::lit_by_vertex(scene.lights[1]));
+    EXPECT_EQ(scene.lights[1].specular, 1.0f);
+    EXPECT_TRUE(scene::lit_by_vertex(scene.lights[2]));
+    const scene::Scene again = scene::load_gltf(scene::write_glb(scene), "lamps.glb", {});
+    ASSERT_EQ(again.lights.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(scene::lit_by_vertex(again.lights[i]), i != 1) << i;
+
+    EXPECT_THAT(said("[lamps.\"spot\"]\nper_vertex = true\nwidth_m = 2\nheight_m = 1\n"), HasSubstr("rectangle does not light by vertex"));
+    EXPECT_THAT(said("[lamps.\"spot\"]\nper_vertex = 1\n"), HasSubstr("per_vertex"));
+    scene.lights[0].kind = scene::LightKind::Directional;
+    scene::LightShape shape;
+    shape.per_vertex = 1.0f;
+    EXPECT_THAT(scene::shape_light(scene.lights[0], shape), HasSubstr("directional"));
+}
+
 TEST(LampOverrides, TakePhotometryAndPictures)
 {
     const Workplace place("lamps");

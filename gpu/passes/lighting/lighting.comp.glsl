@@ -79,6 +79,20 @@ vec2 split_sum(vec3 n, vec3 v, float roughness)
 #include "gpu/passes/lighting/light_parts.glsl"
 #include "gpu/passes/lighting/light_loops.glsl"
 
+const bool AT_VERTICES = (BAKED & LIGHTING_BAKED_VERTICES) != 0u;
+const bool MAPPED = (BAKED & LIGHTING_BAKED_MAPS) != 0u;
+
+// The answer to light of lamps at vertices, of which it is not known whence it comes: that to light straight on, below
+// what covers the surface, without highlights.
+//   lit  what a white Lambert surface sends out
+vec3 vertex_lit(LitPoint p, vec3 lit)
+{
+    LitPoint q = matt_part(p);
+    q.gathers = GATHERS_NOTHING_FIRST;
+    q.film.lit = 0.0;
+    return filmed_light(q, p.normal) * (kPi * lit);
+}
+
 // The surface without what it scatters. Whatever the model: its answer less that of this is scattered.
 LitPoint mirroring_part(LitPoint p)
 {
@@ -348,10 +362,16 @@ void main()
             parts.of[PART_SPECULAR_DIRECT] = bright * direct_open;
             parts.of[PART_DIFFUSE_DIRECT] = (direct - bright) * direct_open;
         }
-        if (BAKED != 0u) {
+        const bool by_vertex = AT_VERTICES && g.lamps_at_vertices;
+        if (AT_VERTICES) {
+            const vec3 lamplight = vertex_lit(p, by_vertex ? g.baked : vec3(0.0)) * direct_open;
+            radiance += lamplight;
+            if (PARTS != 0u) parts.of[PART_DIFFUSE_DIRECT] += lamplight;
+        }
+        if (MAPPED) {
             // Light of the map comes from all around; the crevices of its own it holds already.
             Surroundings s;
-            s.irradiance = g.baked;
+            s.irradiance = by_vertex ? vec3(0.0) : g.baked;
             s.irradiance_behind = vec3(0.0);
             s.occlusion = m.occlusion;
             s.specular_occlusion = 0.0;

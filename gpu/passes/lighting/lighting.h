@@ -23,7 +23,7 @@ struct LightingVariant {
     bool mirrors_picture = true;  ///< the reflections behind it do
     bool ambient_occlusion = true;
     bool emission = true;
-    bool baked = false;  ///< light maps
+    std::uint32_t baked = 0;  ///< LIGHTING_BAKED_..
     bool gamma = false;
     bool patch_light = false;
     bool lamp_shadows = false;

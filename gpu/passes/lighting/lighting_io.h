@@ -12,7 +12,9 @@
 #define LIGHTING_SPEC_AMBIENT_OCCLUSION 3
 #define LIGHTING_SPEC_EMISSION 4
 #define LIGHTING_SPEC_ALL_LIGHTS 5  // 1: no lists; what they are tested against
-#define LIGHTING_SPEC_BAKED 6       // light maps
+#define LIGHTING_SPEC_BAKED 6       // bits of LIGHTING_BAKED_..: light that came with the surface
+#define LIGHTING_BAKED_MAPS 1u      // .. of light maps
+#define LIGHTING_BAKED_VERTICES 2u  // .. of lamps at vertices
 #define LIGHTING_SPEC_GAMMA 7       // 1: colours are lit as codes
 #define LIGHTING_SPEC_LAMP_SHADOWS 8
 #define LIGHTING_SPEC_RECTANGLES 9

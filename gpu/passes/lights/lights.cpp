@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "base/error.h"
 #include "formulas/color/tone_map.h"
@@ -140,6 +142,10 @@ Bounds cube_of(const std::vector<Light>& lights)
     return box;
 }
 
+// The order of the table: directional lights, with a shadow points and what is lit by its shape, without one both,
+// lamps by vertex.
+constexpr int kVertexKind = 5;
+
 // How the size of a lamp is lit.
 enum class Shape { None, Rectangle, Nearest, Ltc };
 
@@ -179,8 +185,12 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     const auto number_of = [&](const Light* light) {
         return static_cast<std::size_t>(light - lights.data());
     };
-    // Who owns one does not depend on what is seen: it would come and go.
-    for (const std::size_t i : brightest(ordered, params.shadows, params.eye_m)) {
+    // Who owns one does not depend on what is seen: it would come and go. Lamps by vertex have none.
+    std::vector<const Light*> throwing;
+    std::copy_if(ordered.begin(), ordered.end(), std::back_inserter(throwing),
+                 [](const Light* light) { return !scene::lit_by_vertex(*light); });
+    for (const std::size_t k : brightest(throwing, params.shadows, params.eye_m)) {
+        const std::size_t i = number_of(throwing[k]);
         if (!is_seen(lights[i])) continue;
         shadow[i] = static_cast<int>(table.shadowed.size());
         table.shadowed.push_back(lights[i]);
@@ -189,6 +199,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         table.brightest.push_back(lights[i]);
     const auto kind_of = [&](const Light* light) {
         if (light->kind == LightKind::Directional) return 0;
+        if (scene::lit_by_vertex(*light)) return kVertexKind;
         return (shadow[number_of(light)] >= 0 ? 1 : 3) + (shape_of(*light, area) == Shape::None ? 0 : 1);
     };
     // Neighbours share the words of a tile's list.
@@ -209,7 +220,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         });
         return static_cast<std::uint32_t>(first - ordered.begin());
     };
-    table.count = static_cast<std::uint32_t>(ordered.size());
+    table.count = first_of(kVertexKind);
     table.directional = first_of(1);
     table.shaped_shadows = first_of(2);
     table.plain = first_of(3);
@@ -230,16 +241,19 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     for (const Light* light : ordered) {
         const bool spot = light->kind == LightKind::Spot;
         const bool rectangle = light->kind == LightKind::Rectangle;
-        const Shape shape = shape_of(*light, area);
+        const bool by_vertex = scene::lit_by_vertex(*light);
+        const Shape shape = by_vertex ? Shape::None : shape_of(*light, area);
+        std::uint32_t& ways = by_vertex ? table.vertex_ways : table.ways;
+        if (by_vertex) table.vertex_balls.emplace_back(light->position_m, reach_m(*light));
         const bool sized = shape == Shape::Ltc || shape == Shape::Nearest;
         table.rectangles = table.rectangles || shape == Shape::Rectangle;
-        if (shape == Shape::Ltc) table.ways |= LIGHTS_LTC;
-        if (shape == Shape::Nearest) table.ways |= LIGHTS_NEAREST;
+        if (shape == Shape::Ltc) ways |= LIGHTS_LTC;
+        if (shape == Shape::Nearest) ways |= LIGHTS_NEAREST;
         if (light->specular != 1.0f && light->kind != LightKind::Directional)
-            table.ways |= LIGHTS_FILL;
-        if (spot) table.ways |= LIGHTS_CONE;
-        if (light->mask_channel > 0) table.ways |= LIGHTS_MASKED;
-        if (light->profile >= 0) table.ways |= light->in_lantern ? LIGHTS_LANTERN : LIGHTS_PROFILE;
+            ways |= LIGHTS_FILL;
+        if (spot) ways |= LIGHTS_CONE;
+        if (light->mask_channel > 0) ways |= LIGHTS_MASKED;
+        if (light->profile >= 0) ways |= light->in_lantern ? LIGHTS_LANTERN : LIGHTS_PROFILE;
         const float kind = spot                ? std::cos(light->outer_cone_rad)
                            : !rectangle        ? LIGHT_POINT
                            : light->both_sides ? LIGHT_BOTH_SIDES
@@ -257,8 +271,9 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                             rectangle ? windowed : 0.5f * light->length_m, light->glows ? static_cast<float>(LIGHT_GLOWS) : light->specular,
                             static_cast<float>(light->profile) + (light->in_lantern ? 0.5f : 0.0f));
     }
+    table.vertex_ways &= LIGHTS_CONE | LIGHTS_PROFILE | LIGHTS_LANTERN;
     if (table.count > kLightsAnywhere)
-        for (const Light* light : ordered) table.balls.emplace_back(light->position_m, reach_m(*light));
+        for (const Light* light : std::span(ordered).first(table.count)) table.balls.emplace_back(light->position_m, reach_m(*light));
     if (texels.empty()) texels.emplace_back(0.0f);
     table.texels = arena.buffer(
         {.name = "lights",

@@ -28,6 +28,8 @@ struct LightTable {
     bool glows = false;              ///< some are surfaces that glow
     std::uint32_t ways = 0;          ///< LIGHTS_... that some need
     std::vector<glm::vec4> balls;    ///< centre and reach of each, where there are more than kLightsAnywhere
+    std::vector<glm::vec4> vertex_balls;  ///< of lamps by vertex, whose rows stand behind those counted here
+    std::uint32_t vertex_ways = 0;        ///< LIGHTS_... that those need
     std::vector<Light> shadowed;     ///< that own a shadow, in the order of its maps
     std::vector<Light> brightest;    ///< at most kBrightestLamps, as the eye sees them
 

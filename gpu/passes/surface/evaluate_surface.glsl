@@ -54,6 +54,13 @@ void share_footprint(inout SurfaceInput at)
     at.uv_dy *= scale;
 }
 
+// What lamps give at vertices, as a white Lambert surface sends it out; with a light map it is part of that.
+void add_vertex_light(inout GBufferTexel texel, vec3 lit)
+{
+    texel.baked = min(texel.baked + lit, vec3(60000.0));
+    if (!has(TEXTURE_LIGHT_MAP) && texel.baked_shadow.share == 0.0) texel.baked_sky = kBakedAtVertices;
+}
+
 SurfaceData evaluate_surface(SurfaceInput at)
 {
     share_footprint(at);

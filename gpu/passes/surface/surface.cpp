@@ -27,7 +27,7 @@ const char* fragment_shader(const GBufferParts& parts)
 }  // namespace
 
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
-                 DepthMaps& depth_maps, GpuPlace& place, const ConstantsRange& constants,
+                 DepthMaps& depth_maps, GpuPlace& place, const VertexLight& vertex_light, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
                  const VisibleWeather& weather, Draws which, const SurfaceLayer* layer, std::shared_ptr<const SeenDraws> seen)
 {
@@ -53,6 +53,8 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
             bindings.push_back({unread, sampled(*maps.ripple, maps.trilinear)});
     }
     bindings.push_back({SURFACE_DRAWS, texels(scene.draw_rows())});
+    bindings.push_back({SURFACE_LIT_VERTICES, texels(vertex_light.light())});
+    bindings.push_back({SURFACE_LIT_FIRSTS, texels(vertex_light.firsts())});
     const bool layered = layer != nullptr;
     std::vector<Attachment> colors = gbuffer_attachments(g, parts);
     if (layer) {
@@ -92,6 +94,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     const Draw& draw = *run.first;
                     const SeenRange range = run.count > 1 ? SeenRange{} : binder.range_of(draw);
                     if (range.index_count == 0) return;
+                    const auto number = static_cast<std::uint32_t>(&draw - scene.draws().data());
                     const GpuMaterial& material = scene.materials()[draw.material];
                     const Pipeline& pipeline = pass.pipelines().graphics(wanted);
                     if (&pipeline != bound) {
@@ -106,9 +109,9 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     set_facing(commands, material.cull, draw.mirrored);
                     pass.push(draw_constants(draw));
                     if (run.count > 1) {
-                        binder.draw_run(draw, run.count, static_cast<std::uint32_t>(&draw - scene.draws().data()));
+                        binder.draw_run(draw, run.count, number);
                     } else {
-                        binder.draw(draw, range);
+                        binder.draw(draw, range, number);
                     }
                 };
                 // Depth of the opaque things first, where shading is dear: then each pixel is
@@ -148,6 +151,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_LAYER_ROLES_C, scene.materials()[draw->material].layer_roles[2]},
                         {SURFACE_SPEC_BESIDES, scene.materials()[draw->material].besides},
                         {SURFACE_SPEC_FADE, draw->fade != 0},
+                        {SURFACE_SPEC_VERTEX_LIGHT, scene.vertex_lamps()},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     if (layered) shaded.specialization.push_back({SURFACE_SPEC_LAYER_FIRST, first});
                     if (layered && own != 0) shaded.specialization.push_back({SURFACE_SPEC_OWN, own});

@@ -3,7 +3,7 @@
 // Compiled eight times, since a target that nobody reads is not written:
 //   SURFACE_WEATHER   1: masks of water, snow and frost
 //   SURFACE_EMISSION  1: radiance of materials that glow
-//   SURFACE_BAKED     1: light of light maps, with SURFACE_EMISSION only
+//   SURFACE_BAKED     1: light of light maps and of lamps at vertices, with SURFACE_EMISSION only
 //   SURFACE_LAYER     1: a layer of what lets light through (passes/transparent); what it lets through
 //                     has a target of its own behind those of the G-buffer
 #ifndef SURFACE_LAYER
@@ -27,6 +27,10 @@ layout(location = 3) in vec4 in_uv;
 layout(location = 4) in vec4 in_color;
 layout(location = 5) in vec4 in_weather;
 layout(location = 6) flat in uvec2 in_who;
+#if SURFACE_BAKED
+layout(location = 7) in vec3 in_lit_front;
+layout(location = 8) in vec3 in_lit_back;
+#endif
 
 #if SURFACE_WEATHER
 #define WEATHER_TARGETS(ROW) GBUFFER_WEATHER(ROW)
@@ -88,6 +92,9 @@ void main()
     out_through = vec4(l.through * data.filtered, l.whole);
     data.texel.body = l.body;
     data.texel.lamp_mask = vec3(1.0);  // the thickness stands there
+#endif
+#if SURFACE_BAKED
+    if (VERTEX_LIGHT != 0u) add_vertex_light(data.texel, gl_FrontFacing ? in_lit_front : in_lit_back);
 #endif
     data.texel.emission = data.emission;
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);

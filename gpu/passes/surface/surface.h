@@ -7,6 +7,7 @@
 #include "gpu/frame/targets.h"
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/surface_maps/surface_maps.h"
+#include "gpu/passes/vertex_light/vertex_light.h"
 #include "gpu/upload/draw.h"
 #include "gpu/upload/seen_triangles.h"
 #include "gpu/place/gpu_place.h"
@@ -27,11 +28,11 @@ struct SurfaceLayer {
 
 // Draws the scene into the G-buffer: dry material and weather.
 //
-//   reads    ripple, flow and snow maps, the shelter map, the states of the patches
+//   reads    ripple, flow and snow maps, the shelter map, the states of the patches, light at vertices
 //   writes   the G-buffer
 //   variant  weather, emission, light maps: a target that nobody reads is not written
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
-                 DepthMaps& depth_maps, GpuPlace& place, const ConstantsRange& constants,
+                 DepthMaps& depth_maps, GpuPlace& place, const VertexLight& vertex_light, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
                  const VisibleWeather& weather, Draws draws = Draws::All,
                  const SurfaceLayer* layer = nullptr,

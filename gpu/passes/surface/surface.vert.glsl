@@ -14,6 +14,10 @@ layout(location = 6) in vec4 in_weather;
 
 layout(set = 0, binding = 0, scalar) uniform Frame { FrameConstants frame; };
 #include "gpu/passes/surface/surface_place.glsl"
+#define VERTEX_LIGHT_PLACE SURFACE_LIT_VERTICES
+#define VERTEX_LIGHT_FIRSTS SURFACE_LIT_FIRSTS
+#include "gpu/passes/vertex_light/vertex_light.glsl"
+layout(constant_id = SURFACE_SPEC_VERTEX_LIGHT) const uint VERTEX_LIGHT = 0u;
 
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
@@ -22,6 +26,8 @@ layout(location = 3) out vec4 out_uv;
 layout(location = 4) out vec4 out_color;
 layout(location = 5) out vec4 out_weather;
 layout(location = 6) flat out uvec2 out_who;  // instance; its look
+layout(location = 7) out vec3 out_lit_front;  // by lamps at vertices
+layout(location = 8) out vec3 out_lit_back;
 
 // The depth pre-pass must find the same depth to the last bit.
 invariant gl_Position;
@@ -43,5 +49,12 @@ void main()
     out_color = in_color;
     out_weather = in_weather;
     out_who = uvec2(here.instance_id, here.look);
+    out_lit_front = vec3(0.0);
+    out_lit_back = vec3(0.0);
+    if (VERTEX_LIGHT != 0u) {
+        const uvec2 lit = vertex_light_code(gl_InstanceIndex, gl_VertexIndex);
+        out_lit_front = shared_exponent_value(lit.x);
+        out_lit_back = shared_exponent_value(lit.y);
+    }
     gl_Position = frame.world_to_clip * vec4(world, 1.0);
 }

@@ -8,5 +8,8 @@
 // Behind those of layers, for which others have stand-ins: DrawConstants of all draws, in texels of four words.
 #define SURFACE_DRAWS (SURFACE_BINDINGS + 2)
 #define SURFACE_DRAW_TEXELS 7
+// Of vertices that lamps light; the instance is the number of a draw then, too.
+#define SURFACE_LIT_VERTICES (SURFACE_BINDINGS + 3)
+#define SURFACE_LIT_FIRSTS (SURFACE_BINDINGS + 4)
 
 #endif

@@ -19,6 +19,7 @@
 #define SURFACE_SPEC_LAYER_ROLES_C 33
 #define SURFACE_SPEC_BESIDES 32  // BESIDES_... of the material
 #define SURFACE_SPEC_FALLS 34  // directions that rain and snow come from, some of no share
+#define SURFACE_SPEC_VERTEX_LIGHT 39  // 1: lamps of the scene light by vertex (passes/vertex_light)
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.

@@ -37,6 +37,9 @@ layout(set = 0, binding = RESOLVE_SHARES, rgba32ui) uniform writeonly uimage2D o
 layout(set = 0, binding = RESOLVE_DEPTH) uniform sampler2D depth_map;
 layout(push_constant, scalar) uniform Push { SurfaceResolveParams params; };
 
+#define VERTEX_LIGHT_PLACE RESOLVE_LIT_VERTICES
+#define VERTEX_LIGHT_FIRSTS RESOLVE_LIT_FIRSTS
+#include "gpu/passes/vertex_light/vertex_light.glsl"
 #include "gpu/frame/plane_step.glsl"
 
 struct Corner {
@@ -114,6 +117,17 @@ vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 at)
     return a + (b - a) * at.x + (c - a) * at.y;
 }
 
+// On the side that is seen.
+vec3 lit_at_vertices(int draw, ivec3 corners, vec2 at, float side)
+{
+    vec3 lit[3];
+    for (int i = 0; i < 3; ++i) {
+        const uvec2 code = vertex_light_code(draw, corners[i]);
+        lit[i] = shared_exponent_value(side > 0.0 ? code.x : code.y);
+    }
+    return mixed(lit[0], lit[1], lit[2], at);
+}
+
 #include "gpu/passes/surface_resolve/shape_point.glsl"
 
 void main()
@@ -133,9 +147,11 @@ void main()
     const bool mirrored = IN_WORLD == 0u && more.x != 0u;
 
     Triangle t;
+    ivec3 numbers;
     for (int i = 0; i < 3; ++i) {
         const uint index = texelFetch(indices, int(facts.x + 3u * id.y) + i).r;
-        t.corners[i] = corner_of(draw, int(index + facts.y));
+        numbers[i] = int(index + facts.y);
+        t.corners[i] = corner_of(draw, numbers[i]);
     }
     const vec2 centre = vec2(pixel) + 0.5;
     const bool orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
@@ -181,6 +197,8 @@ void main()
 
     SurfaceData data = evaluate_surface(s);
     if (SHAPES != 0u && more.z != 0u) data.texel.occlusion *= shape_decode(id.y).z;
+    const bool shape = SHAPES != 0u && more.z != 0u;
+    if (VERTEX_LIGHT != 0u && !shape) add_vertex_light(data.texel, lit_at_vertices(draw, numbers, at, side));
     data.texel.emission = data.emission;
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
     const bool ALWAYS = true;

@@ -129,7 +129,7 @@ std::uint8_t listed_steep(const VisibleWeather& weather)
 }
 
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
-                         const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps, GpuPlace& place,
+                         const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps, GpuPlace& place, const VertexLight& vertex_light,
                          const ConstantsRange& constants, const VisibleWeather& weather, bool asked)
 {
     const auto materials = static_cast<std::uint32_t>(scene.materials().size());
@@ -193,6 +193,9 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     bindings.push_back({RESOLVE_TARGETS + location, storage(*targets.gbuffer.name)});
     GBUFFER_TABLE(ROW)
 #undef ROW
+    static_assert(RESOLVE_LIT_VERTICES == RESOLVE_TARGETS + GBUFFER_BINDINGS - 1);
+    bindings.push_back({RESOLVE_LIT_VERTICES, texels(vertex_light.light())});
+    bindings.push_back({RESOLVE_LIT_FIRSTS, texels(vertex_light.firsts())});
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
     const std::uint32_t shares = scene.layer_shares() ? BESIDES_SHARES : 0u;
     const bool any_emission = parts.emission;
@@ -201,7 +204,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     };
     const std::uint32_t lanes = targets.lanes;
     const std::uint32_t kept = parts.weather ? targets.weather_kept() : WEATHER_DRY;
-    const auto variant = [parts, kept, lanes, weather, snow = SnowBits(scene, maps), shares,
+    const auto variant = [parts, kept, lanes, weather, by_vertex = scene.vertex_lamps(), snow = SnowBits(scene, maps), shares,
                           glows](const GpuMaterial& material, bool shedding) {
         const std::uint32_t water = material.water | (shedding && material.sheds ? WATER_STEEP : 0u);
         return std::vector<Specialization>{
@@ -220,6 +223,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_LAYER_ROLES_C, material.layer_roles[2]},
             {SURFACE_SPEC_BESIDES, material.besides | shares},
             {SURFACE_SPEC_PLACE, weather.place},
+            {SURFACE_SPEC_VERTEX_LIGHT, by_vertex},
             {FRAME_SPEC_LANES, lanes},
             {RESOLVE_SPEC_WEATHER, kept},
             {RESOLVE_SPEC_EMISSION, glows(material)},

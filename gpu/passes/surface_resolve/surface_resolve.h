@@ -7,6 +7,7 @@
 #include "gpu/frame/targets.h"
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/surface_maps/surface_maps.h"
+#include "gpu/passes/vertex_light/vertex_light.h"
 #include "gpu/upload/gpu_scene.h"
 #include "gpu/place/gpu_place.h"
 
@@ -43,11 +44,11 @@ std::uint8_t listed_steep(const VisibleWeather& weather);
 //
 // Of samples that go by the list (passes/adaptive), those of `asked` alone.
 //
-//   reads    ids, the scene's vertices and indices as texels, the maps of the weather
+//   reads    ids, the scene's vertices and indices as texels, the maps of the weather, light at vertices
 //   writes   colour, normals, material; weather and emission when the frame has them
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
                          const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps,
-                         GpuPlace& place, const ConstantsRange& constants,
+                         GpuPlace& place, const VertexLight& vertex_light, const ConstantsRange& constants,
                          const VisibleWeather& weather, bool asked);
 
 }  // namespace petrichor::gpu

@@ -42,6 +42,8 @@
 #define RESOLVE_DEPTH (SURFACE_BINDINGS + 7)  // of scenes that have marched shapes
 #define RESOLVE_WET (SURFACE_BINDINGS + 8)    // in place of the target of the weather
 #define RESOLVE_TARGETS (SURFACE_BINDINGS + 9)  // of the G-buffer, by location
+#define RESOLVE_LIT_VERTICES (RESOLVE_TARGETS + 7)  // behind all of those
+#define RESOLVE_LIT_FIRSTS (RESOLVE_TARGETS + 8)
 #define RESOLVE_SPEC_WEATHER 5  // WEATHER_..
 #define RESOLVE_SPEC_EMISSION 6
 #define RESOLVE_SPEC_BAKED 7
