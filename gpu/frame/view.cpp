@@ -156,8 +156,9 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     c.near_m = camera.near_m;
     c.ray_dx = axes.right * (2.0f * half.x / w);
     c.ray_dy = -axes.up * (2.0f * half.y / h);
-    const glm::vec3 corner =
-        -axes.right * half.x + axes.up * half.y + c.ray_dx * jitter.x + c.ray_dy * jitter.y;
+    const glm::vec2 middle = half * camera.shift;
+    const glm::vec3 corner = axes.right * (middle.x - half.x) + axes.up * (middle.y + half.y) +
+                             c.ray_dx * jitter.x + c.ray_dy * jitter.y;
     c.ray_corner = axes.forward + corner;
     if (lens_m != glm::vec2(0.0f)) c.ray_corner -= aside / focus_m;
     c.origin_corner = axes.position + corner;
@@ -193,7 +194,10 @@ DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun
 {
     const Axes axes = axes_of(camera);
     const float half_y = scene::half_extent_m(camera, 1, 1).y;
-    const float k = half_y * half_y * (1.0f + aspect * aspect);
+    // Where a lens is shifted, the sphere lies around the axis all the same and holds what is farthest from it.
+    const glm::vec2 half(half_y * aspect, half_y);
+    const glm::vec2 farthest = half * (1.0f + glm::abs(camera.shift));
+    const float k = glm::dot(farthest, farthest);
     float along;
     float radius;
     if (camera.orthographic_height_m > 0.0f) {
@@ -213,9 +217,9 @@ DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun
     std::array<glm::vec3, 8> corners;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const float away = (i & 1) ? until : begin;
-        const float wide = camera.orthographic_height_m > 0.0f ? half_y : half_y * away;
-        corners[i] = axes.position + axes.forward * away + axes.right * ((i & 2) ? aspect * wide : -aspect * wide) +
-                     axes.up * ((i & 4) ? wide : -wide);
+        const glm::vec2 side(i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f);
+        const glm::vec2 at = half * (side + camera.shift) * (camera.orthographic_height_m > 0.0f ? 1.0f : away);
+        corners[i] = axes.position + axes.forward * away + axes.right * at.x + axes.up * at.y;
     }
     view.asked = asked_part(view, corners, kBeside_m);
     return view;
