@@ -127,7 +127,7 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     }
     const glm::vec2 half = scene::half_extent_m(camera, width, height);
     glm::mat4 projection = scene::clip_projection(camera, width, height, c.far_m);
-    projection[1][1] = -projection[1][1];  // rows of a picture go down
+    for (int i = 0; i < 4; ++i) projection[i][1] = -projection[i][1];  // rows of a picture go down
 
     // Another point of the lens sees what is in focus where its middle does.
     const glm::vec3 aside = axes.right * lens_m.x + axes.up * lens_m.y;
