@@ -195,9 +195,8 @@ DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun
     const Axes axes = axes_of(camera);
     const float half_y = scene::half_extent_m(camera, 1, 1).y;
     // Where a lens is shifted, the sphere lies around the axis all the same and holds what is farthest from it.
-    const glm::vec2 half(half_y * aspect, half_y);
-    const glm::vec2 farthest = half * (1.0f + glm::abs(camera.shift));
-    const float k = glm::dot(farthest, farthest);
+    const glm::vec2 farthest = 1.0f + glm::abs(camera.shift);
+    const float k = half_y * half_y * (farthest.y * farthest.y + aspect * aspect * farthest.x * farthest.x);
     float along;
     float radius;
     if (camera.orthographic_height_m > 0.0f) {
@@ -218,7 +217,8 @@ DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const float away = (i & 1) ? until : begin;
         const glm::vec2 side(i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f);
-        const glm::vec2 at = half * (side + camera.shift) * (camera.orthographic_height_m > 0.0f ? 1.0f : away);
+        const float wide = camera.orthographic_height_m > 0.0f ? half_y : half_y * away;
+        const glm::vec2 at = (side + camera.shift) * glm::vec2(aspect * wide, wide);
         corners[i] = axes.position + axes.forward * away + axes.right * at.x + axes.up * at.y;
     }
     view.asked = asked_part(view, corners, kBeside_m);
