@@ -71,6 +71,7 @@ public:
     }
 
 private:
+    friend class PiecewiseHasher;
     static std::uint64_t mixed(std::uint64_t x)
     {
         x ^= x >> 31;
@@ -93,6 +94,72 @@ private:
 
     std::uint64_t a_ = 0x243f6a8885a308d3ull;
     std::uint64_t b_ = 0x13198a2e03707344ull;
+};
+
+/// The same fingerprint as of a Hasher that was given all bytes at once, from pieces of them.
+class PiecewiseHasher {
+public:
+    /// total: bytes of all pieces
+    explicit PiecewiseHasher(std::size_t total) : many_(total >= Hasher::kManyBytes), left_(total)
+    {
+        hasher_.add_word(total);
+        lanes_[0] = hasher_.a_;
+        lanes_[1] = hasher_.b_;
+        lanes_[2] = ~hasher_.a_;
+        lanes_[3] = ~hasher_.b_;
+    }
+    void add(std::span<const std::byte> bytes)
+    {
+        while (!bytes.empty()) {
+            const std::size_t taken = bytes.size() < 32 - held_ ? bytes.size() : 32 - held_;
+            std::memcpy(block_ + held_, bytes.data(), taken);
+            bytes = bytes.subspan(taken);
+            held_ += taken;
+            left_ -= taken;
+            if (held_ == 32) flush();
+        }
+        if (left_ == 0) end();
+    }
+    /// Once all are there.
+    std::string text() const { return hasher_.text(); }
+
+private:
+    void flush()
+    {
+        std::uint64_t words[4];
+        std::memcpy(words, block_, 32);
+        for (int k = 0; k < 4; ++k) {
+            if (many_) {
+                lanes_[k] = (lanes_[k] ^ words[k]) * 0x9fb21c651e98df25ull;
+                lanes_[k] ^= lanes_[k] >> 28;
+            } else {
+                hasher_.add_word(words[k]);
+            }
+        }
+        held_ = 0;
+    }
+    void end()
+    {
+        if (many_)
+            for (const std::uint64_t lane : lanes_) hasher_.add_word(lane);
+        std::size_t i = 0;
+        std::uint64_t word = 0;
+        for (; i + 8 <= held_; i += 8) {
+            std::memcpy(&word, block_ + i, 8);
+            hasher_.add_word(word);
+        }
+        word = 0;
+        std::memcpy(&word, block_ + i, held_ - i);
+        hasher_.add_word(word);
+        held_ = 0;
+    }
+
+    Hasher hasher_;
+    std::uint64_t lanes_[4];
+    std::byte block_[32];
+    std::size_t held_ = 0;
+    bool many_;
+    std::size_t left_;
 };
 
 }  // namespace petrichor

@@ -59,13 +59,14 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
                     bool weather, const FallingPlan& plan)
 {
     DepthMaps& maps = *r.depth_maps;
+    const Frame& whole = whole_of(frame, r);
     const float aspect =
-        static_cast<float>(frame.settings.width) / static_cast<float>(frame.settings.height);
+        static_cast<float>(whole.settings.width) / static_cast<float>(whole.settings.height);
     if (frame.settings.shadows && !soft_sun(frame, sun)) {
         const bool coarse = frame.settings.coarse_shadows;
         auto views = coarse
-                               ? coarse_views(frame.camera, aspect, sun.direction, r.scene->bounds())
-                               : cascade_views(frame.camera, aspect, sun.direction, r.scene->bounds());
+                               ? coarse_views(whole.camera, aspect, sun.direction, r.scene->bounds())
+                               : cascade_views(whole.camera, aspect, sun.direction, r.scene->bounds());
         ask_everywhere(views, frame);
         add_shadow(graph, maps, *r.scene, *r.triangles, views, coarse ? kCoarseCascade : 0);
     }
@@ -249,7 +250,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
             maps.shadow_views[i].texel_m / std::max(c.shadow_texel_m, 1e-9f);
     }
     c.cascade_end_m = glm::vec4(
-        coarse ? glm::vec3(-1.0f) : cascade_ends_m(frame.camera, r.scene->bounds()), 0.0f);
+        coarse ? glm::vec3(-1.0f) : cascade_ends_m(whole_of(frame, r).camera, r.scene->bounds()), 0.0f);
     c.shelter_from_world = maps.shelter_view.map_from_world;
     if (!maps.sky_valid) c.flags &= ~FRAME_SHELTER;
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
@@ -329,10 +330,11 @@ bool soft_shadows(const Frame& frame, const FrameResources& r)
 void look_from_sun(FrameGraph& graph, const Frame& frame, const Sun& sun, std::uint32_t sample,
                    FrameResources& r)
 {
-    const FrameSettings& s = frame.settings;
+    const Frame& whole = whole_of(frame, r);
+    const FrameSettings& s = whole.settings;
     const float aspect = static_cast<float>(s.width) / static_cast<float>(s.height);
     DepthMaps& maps = *r.depth_maps;
-    auto views = cascade_views(frame.camera, aspect, toward_sun_disc(sun.direction, sample, s.samples, s.seed),
+    auto views = cascade_views(whole.camera, aspect, toward_sun_disc(sun.direction, sample, s.samples, s.seed),
                                      r.scene->bounds());
     ask_everywhere(views, frame);
     add_shadow(graph, maps, *r.scene, *r.triangles, views);
@@ -355,7 +357,29 @@ void look_from_lamps(FrameGraph& graph, const Frame& frame, shared::FrameConstan
 
 FallingPlan plan_of(const Frame& frame, const Sun& sun, const FrameResources& r)
 {
-    return plan_falling(frame, falling_view(frame_constants(frame, sun, r.scene->bounds(), 0), frame.lens));
+    const Frame& whole = whole_of(frame, r);
+    return plan_falling(whole, falling_view(frame_constants(whole, sun, r.scene->bounds(), 0), frame.lens, whole.camera.shift));
+}
+
+// What is drawn of the whole picture's drops: those of the window, in its pixels. Returns how many the picture has.
+std::size_t keep_window(std::vector<shared::FallingDrop>& drops, const Frame& whole, const Frame& frame)
+{
+    const std::size_t all = drops.size();
+    if (&whole == &frame) return all;
+    // Both cameras have one eye and way: their middles are apart by their shifts.
+    const glm::vec2 size(frame.settings.width, frame.settings.height);
+    const glm::vec2 picture(whole.settings.width, whole.settings.height);
+    const glm::vec2 up(1.0f, -1.0f);
+    const glm::vec2 corner = glm::round(
+        0.5f * (picture - size) + 0.5f * up * (size * frame.camera.shift - picture * whole.camera.shift));
+    std::erase_if(drops, [&](shared::FallingDrop& drop) {
+        drop.from_px -= corner;
+        drop.to_px -= corner;
+        const float reach = drop.half_px + glm::length(drop.to_px - drop.from_px) + 64.0f;
+        const glm::vec2 middle = 0.5f * (drop.from_px + drop.to_px);
+        return middle.x < -reach || middle.y < -reach || middle.x > size.x + reach || middle.y > size.y + reach;
+    });
+    return all;
 }
 
 FallingFacts falling_facts(const FallingPlan& plan, const Frame& frame)
@@ -379,10 +403,12 @@ void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const Fallin
     const bool falls = plan.drawn_reach_m > 0.0f;
     facts = falling_facts(plan, frame);
     if (falls) {
-        const FallingView view = falling_view(c, frame.lens);
-        r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
-        r.splashes->fill(falling_splashes(plan, frame, view, r.lights->brightest));
-        facts.drawn = r.falling->count();
+        const Frame& whole = whole_of(frame, r);
+        const FallingView view = falling_view(frame_constants(whole, sun, r.scene->bounds(), 0), frame.lens, whole.camera.shift);
+        std::vector<shared::FallingDrop> drops = falling_drops(plan, whole, view, r.lights->brightest);
+        facts.drawn = static_cast<std::uint32_t>(keep_window(drops, whole, frame));
+        r.falling->fill(drops);
+        r.splashes->fill(falling_splashes(plan, whole, view, r.lights->brightest));
     }
     const auto draw = [&](bool hides) {
         if (glows) add_lamp_glow(graph, *r.targets, *r.lamp_glow, constants);

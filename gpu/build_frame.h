@@ -22,6 +22,7 @@ namespace petrichor::gpu {
 /// Everything on the device that a frame reads or writes.
 struct FrameResources {
     const Device* device = nullptr;
+    const Frame* whole = nullptr;  ///< the picture that the frame is a window of; null: it is the picture
     const GpuScene* scene = nullptr;
     FrameTargets* targets = nullptr;
     SurfaceMaps* surface_maps = nullptr;
@@ -52,6 +53,12 @@ struct FrameResources {
     std::uint32_t* falls_before = nullptr;  ///< directions that the last pipelines of rain or snow were made for; replaced
     bool own_lighting = false;  ///< the scene has lighting models that are not built in
 };
+
+/// The frame of the whole picture.
+inline const Frame& whole_of(const Frame& frame, const FrameResources& r)
+{
+    return r.whole ? *r.whole : frame;
+}
 
 /// Light between surfaces is that of the scene's patches.
 bool uses_patches(const Frame& frame, const FrameResources& resources);

@@ -168,7 +168,7 @@ struct Renderer::Impl {
     }
 
     // exposure: as of least_lux().
-    LightFacts prepare_lights(const Frame& frame, const Sun& by_day, const Light* sun, float exposure)
+    LightFacts prepare_lights(const Frame& frame, const Frame& whole, const Sun& by_day, const Light* sun, float exposure)
     {
         LightFacts facts{.direct = by_day.kind, .towards = by_day.direction, .lux = by_day.illuminance};
         std::vector<Light> lights;
@@ -202,7 +202,7 @@ struct Renderer::Impl {
                                 .least_lux = least_lux(frame.settings, exposure)};
         // Other eyes of a lens or a shutter see more.
         if (frame.lens.radius_m <= 0.0f && frame.shutter.empty()) {
-            const shared::FrameConstants c = frame_constants(frame, by_day, scene->bounds(), 0);
+            const shared::FrameConstants c = frame_constants(whole, by_day, scene->bounds(), 0);
             params.in_view = [frustum = Frustum(c.world_to_clip), eye_m = c.camera_m,
                               angle = c.pixel_angle](const glm::vec3& centre_m, float radius_m) {
                 // Samples are moved by less than a pixel.
@@ -268,11 +268,11 @@ struct Renderer::Impl {
     }
 
     // True when this frame resolves a visibility buffer; its tables are then made for its size.
-    bool prepare_resolve(TargetSet& set, const Frame& frame)
+    bool prepare_resolve(TargetSet& set, const Frame& frame, const FrameSettings& whole)
     {
         const FrameSettings& s = frame.settings;
         ResolveTables& resolve = set.resolve;
-        if (chosen_surface_path(s.surface_path, device, *scene, s.width, s.height,
+        if (chosen_surface_path(s.surface_path, device, *scene, whole.width, whole.height,
                                 is_adaptive(frame)) != SurfacePath::Visibility) {
             return false;
         }
@@ -346,7 +346,8 @@ struct Renderer::Impl {
         return true;
     }
 
-    RenderResult render(const Frame& frame, TargetSet& set);
+    /// `whole`: of the picture that the frame is a window of; else the frame itself.
+    RenderResult render(const Frame& frame, const Frame& whole, TargetSet& set);
 
     Device device;
     PipelineCache pipelines;
@@ -456,7 +457,7 @@ void Renderer::set_environment(const EnvironmentMap& map)
     upload_image(impl_->device, *impl_->environment, {texels});
 }
 
-RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
+RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, TargetSet& set)
 {
     std::vector<std::size_t> aov_rows;
     for (const std::string& name : frame.settings.aovs) aov_rows.push_back(aov_row(name));
@@ -469,7 +470,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     const bool moved = scene->pose(
         device, frame.animation_s,
         {frame.weather.wind_m_s, frame.falling.air_m, frame.settings.time_s});
-    const bool switched = scene->choose_levels(frame.camera, frame.settings.lod_scale);
+    const bool switched = scene->choose_levels(whole.camera, frame.settings.lod_scale);
     const bool reshaped = scene->set_shapes(frame.shapes);
     const bool changed = scene->set_materials(frame.materials);
     const bool washed = move_own(frame, frame.settings.time_s, moved || changed);
@@ -496,6 +497,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
 
     FrameResources resources;
     resources.device = &device;
+    resources.whole = &whole;
     resources.scene = scene.get();
     resources.targets = &set.targets;
     resources.surface_maps = &surface_maps;
@@ -530,9 +532,9 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         if (probes.count() > 0) result.passes.push_back({"probes", probes.relight_ms()});
     }
     const float exposure = exposure_of(frame);
-    result.light = prepare_lights(frame, sun, scene_sun, exposure);
+    result.light = prepare_lights(frame, whole, sun, scene_sun, exposure);
     prepare_targets(set, frame.settings, aov_groups);
-    if (prepare_resolve(set, frame)) resources.resolve = &set.resolve;
+    if (prepare_resolve(set, frame, whole.settings)) resources.resolve = &set.resolve;
     if (resources.resolve && prepare_adaptive(set, frame)) resources.adaptive = &set.adaptive;
     if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;
     if (prepare_decals(set, frame.settings)) resources.decals = &set.decals;
@@ -555,8 +557,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
             move_own(frame, frame.settings.time_s + now.off_s, true);
             depth_maps.forget();
             lamp_shadows.forget();
-            prepare_lights(frame, sun, scene_sun, exposure);
-            prepare_resolve(set, frame);
+            prepare_lights(frame, whole, sun, scene_sun, exposure);
+            prepare_resolve(set, frame, whole.settings);
         }
         triangles.reset(*scene);
         scene->update_draw_rows(device);
@@ -595,14 +597,27 @@ RenderResult Renderer::render(const Frame& frame)
 {
     check_frame(frame, impl_->device.limits());
     if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before render().");
-    return impl_->render(frame, impl_->pictures);
+    return impl_->render(frame, frame, impl_->pictures);
+}
+
+RenderResult Renderer::render(const Frame& frame, const PictureTile& tile)
+{
+    if (tile.x % kTileStep != 0 || tile.y % kTileStep != 0) {
+        throw Error("render: a window at " + std::to_string(tile.x) + ", " + std::to_string(tile.y),
+                    "Let it begin at multiples of " + std::to_string(kTileStep) + " pixels.");
+    }
+    const Frame part = tile_frame(frame, tile);
+    check_frame(part, impl_->device.limits());
+    if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before render().");
+    return impl_->render(part, frame, impl_->pictures);
 }
 
 MeterReading Renderer::meter(const Frame& frame, MeterOf what)
 {
-    check_frame(frame, impl_->device.limits());
+    const Frame small = metering_frame(frame, what);
+    check_frame(small, impl_->device.limits());
     if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before meter().");
-    const RenderResult result = impl_->render(metering_frame(frame, what), impl_->metering);
+    const RenderResult result = impl_->render(small, small, impl_->metering);
     // Of the sky of a picture nothing is known.
     const bool computed = !impl_->environment && frame.sky.analytic_sun;
     const std::vector<float>& snow = result.aovs.front().pixels;

@@ -14,6 +14,7 @@
 #include "gpu/frame/frame.h"
 #include "gpu/frame/metering.h"
 #include "gpu/frame/patch_scene.h"
+#include "gpu/frame/picture_tile.h"
 #include "gpu/frame/weather_maps.h"
 #include "gpu/outputs/aov_table.h"
 #include "gpu/upload/texture.h"
@@ -69,6 +70,11 @@ public:
     void set_patches(std::shared_ptr<const PatchScene> patches);
 
     RenderResult render(const Frame& frame);
+
+    /// A window of the frame's picture, as large as the tile. Where nothing reaches it from beyond the window its pixels
+    /// are the picture's to rounding: mirrors of the picture, glare and drops on the lens reach far. What falls and what
+    /// lights is told of the whole picture. The tile begins at multiples of kTileStep.
+    RenderResult render(const Frame& frame, const PictureTile& tile);
 
     /// Meters what the frame shows: renders it small, without a sample pattern (gpu/frame/metering.h). A function
     /// of the frame alone, as render() is. `exposure` and `aovs` of the frame do not count.

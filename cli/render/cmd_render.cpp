@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,6 +59,7 @@ struct RenderOptions {
     std::string ground;
     std::string device;
     std::vector<std::string> aovs;
+    std::optional<int> tile;
     int threads = 0;
     int in_flight = 0;
     bool resume = false;
@@ -148,6 +150,7 @@ void apply_options(Scenario& scenario, const RenderOptions& options)
     if (options.count) output.frames = *options.count;
     if (options.samples) output.samples = *options.samples;
     if (options.seed) output.seed = *options.seed;
+    if (options.tile) scenario.render.tile = *options.tile;
     if (!options.camera.empty()) {
         scenario.camera.name = options.camera;
         scenario.camera.keys.clear();
@@ -275,10 +278,20 @@ public:
                   << ", " << output.samples << " samples, on " << device.name << "\n";
         progress_.emplace("render", count);
     }
-    void written(int count) override { progress_->update(count); }
+    void tile(int frame, int done, int count) override
+    {
+        const std::lock_guard lock(mutex_);
+        progress_->stage("frame " + std::to_string(frame) + " tile " + std::to_string(done) + " of " + std::to_string(count));
+    }
+    void written(int count) override
+    {
+        const std::lock_guard lock(mutex_);
+        progress_->update(count);
+    }
     void end() { progress_.reset(); }
 
 private:
+    std::mutex mutex_;
     std::optional<Progress> progress_;
 };
 
@@ -408,6 +421,13 @@ void add_render(CLI::App& app, std::vector<std::string> words)
         ->check(CLI::Range(1, 1000000));
     command->add_option("-s,--size", o->size, "WIDTHxHEIGHT in pixels");
     command->add_option("--samples", o->samples, "samples a pixel")->check(CLI::Range(1, 256));
+    command
+        ->add_option("--tile", o->tile,
+                     "render in tiles of so many pixels a side, 32 to 4096 in steps of 32 (as [render] tile)")
+        ->check([](const std::string& text) {
+            const int tile = std::atoi(text.c_str());
+            return tile >= 32 && tile <= 4096 && tile % 32 == 0 ? "" : "expected 32 to 4096 in steps of 32, got " + text;
+        });
     command->add_option("--seed", o->seed, "of the sample pattern");
     command->add_option("--camera", o->camera, "a camera of the scene");
     command

@@ -19,7 +19,7 @@ class Screen {
 public:
     Screen(const scene::Camera& camera, int width, int height)
         : from_world_(glm::inverse(camera.to_world)), half_(scene::half_extent_m(camera, width, height)),
-          size_(width, height), near_m_(std::max(camera.near_m, 1.0e-3f)),
+          shift_(camera.shift), size_(width, height), near_m_(std::max(camera.near_m, 1.0e-3f)),
           orthographic_(camera.orthographic_height_m > 0.0f)
     {
     }
@@ -37,12 +37,12 @@ public:
 private:
     glm::vec2 pixel(const glm::vec3& p) const
     {
-        const glm::vec2 at = glm::vec2(p) / half_ / (orthographic_ ? 1.0f : -p.z);
+        const glm::vec2 at = glm::vec2(p) / half_ / (orthographic_ ? 1.0f : -p.z) - shift_;
         return glm::vec2(at.x * 0.5f + 0.5f, 0.5f - at.y * 0.5f) * size_;
     }
 
     glm::mat4 from_world_;
-    glm::vec2 half_, size_;
+    glm::vec2 half_, shift_, size_;
     float near_m_;
     bool orthographic_;
 };

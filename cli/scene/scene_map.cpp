@@ -315,7 +315,7 @@ Pixels draw_scene_map(const SceneView& view, const SceneMap& map, const MapCondi
                                     static_cast<float>(picture.width) * 2.0f - 1.0f;
                 const float y = 1.0f - (static_cast<float>(row) + dy) /
                                            static_cast<float>(picture.height) * 2.0f;
-                const glm::vec3 offset = right * (x * half.x) + up * (y * half.y);
+                const glm::vec3 offset = right * ((x + camera.shift.x) * half.x) + up * ((y + camera.shift.y) * half.y);
                 scene::Ray ray;
                 ray.origin = orthographic ? eye + offset : eye;
                 ray.direction = glm::normalize(orthographic ? forward : forward + offset);

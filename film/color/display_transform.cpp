@@ -189,7 +189,7 @@ DisplayTransform::DisplayTransform(const ColorManagement& asked, const fs::path&
     }
 }
 
-std::vector<std::uint8_t> DisplayTransform::picture(std::span<const std::uint16_t> light, int width, bool dither) const
+std::vector<std::uint8_t> DisplayTransform::picture(std::span<const std::uint16_t> light, int width, bool dither, int first_row) const
 {
     const auto columns = static_cast<std::size_t>(width);
     const std::size_t rows = light.size() / 4 / columns;
@@ -205,7 +205,7 @@ std::vector<std::uint8_t> DisplayTransform::picture(std::span<const std::uint16_
         ocio::PackedImageDesc image(band.data(), static_cast<long>(columns), static_cast<long>(count), 3L);
         processor_->cpu->apply(image);
         for (std::size_t i = 0; i < count * columns; ++i) {
-            const glm::ivec2 pixel(static_cast<int>(i % columns), static_cast<int>(first + i / columns));
+            const glm::ivec2 pixel(static_cast<int>(i % columns), first_row + static_cast<int>(first + i / columns));
             const float noise = dither ? shared::dither(pixel, 0u) - 0.5f : 0.0f;
             std::uint8_t* out = &codes[(begin + i) * 4];
             for (std::size_t c = 0; c < 3; ++c) {
@@ -243,7 +243,7 @@ DisplayTransform::DisplayTransform(const ColorManagement&, const std::filesystem
                 "Install libopencolorio-dev and build again, or use tone_map.");
 }
 
-std::vector<std::uint8_t> DisplayTransform::picture(std::span<const std::uint16_t>, int, bool) const
+std::vector<std::uint8_t> DisplayTransform::picture(std::span<const std::uint16_t>, int, bool, int) const
 {
     return {};
 }

@@ -41,7 +41,8 @@ public:
     DisplayTransform(const ColorManagement& asked, const std::filesystem::path& folder);
 
     /// RGBA8 for RGBA half bits, row by row, alpha 255. `dither`: by half a step, as the renderer's own pictures.
-    std::vector<std::uint8_t> picture(std::span<const std::uint16_t> light, int width, bool dither) const;
+    /// `first_row`: of the picture, where only some of its rows are given.
+    std::vector<std::uint8_t> picture(std::span<const std::uint16_t> light, int width, bool dither, int first_row = 0) const;
 
     const std::string& display() const { return display_; }
     const std::string& view() const { return view_; }

@@ -65,17 +65,18 @@ struct WrittenFrame {
 WrittenFrame write_frame(const fs::path& folder, const WrittenKinds& kinds, FrameFacts facts,
                          const gpu::RenderResult& result)
 {
+    if (!facts.files.empty()) {  // they are made
+        WrittenFrame made{frame_line(facts), {}};
+        for (const auto& [name, mark] : facts.files) made.files.push_back(name);
+        return made;
+    }
     Hasher hasher;
     hasher.add_numbers(std::span<const std::uint16_t>(result.beauty));
     facts.beauty_hash = hasher.text();
     facts.exposure = result.exposure;
     facts.falling = result.falling;
     facts.light = result.light;
-    const Metadata metadata{
-        {"software", "petrichor " PETRICHOR_VERSION},
-        {"petrichor:frame", std::to_string(facts.job.frame) + name_suffix(facts.job)},
-        {"petrichor:seed", std::to_string(facts.input.settings.seed)},
-        {"petrichor:settings", fingerprint_of(facts.made_from)}};
+    const Metadata metadata = frame_metadata(facts);
     if (kinds.exr) {
         const std::string name = file_name(facts.job, "exr");
         texproc::write_exr(folder / name, result.width, result.height, exr_channels(result),
@@ -100,6 +101,14 @@ WrittenFrame write_frame(const fs::path& folder, const WrittenKinds& kinds, Fram
 }
 
 }  // namespace
+
+Metadata frame_metadata(const FrameFacts& facts)
+{
+    return {{"software", "petrichor " PETRICHOR_VERSION},
+            {"petrichor:frame", std::to_string(facts.job.frame) + name_suffix(facts.job)},
+            {"petrichor:seed", std::to_string(facts.input.settings.seed)},
+            {"petrichor:settings", fingerprint_of(facts.made_from)}};
+}
 
 // Pictures are made in a folder of their own inside `folder` and appear with their lines in
 // frames.jsonl. That file is written anew for it, so with many lines several frames wait for each
@@ -239,6 +248,11 @@ void FrameWriter::finish()
 {
     impl_->close();
     if (impl_->problem) std::rethrow_exception(impl_->problem);
+}
+
+const fs::path& FrameWriter::scratch() const
+{
+    return impl_->scratch.path();
 }
 
 int FrameWriter::written() const

@@ -6,12 +6,17 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/interrupted.h"
 #include "film/frames/frames_jsonl.h"
 #include "gpu/renderer.h"
 
 namespace petrichor::film {
+
+/// What files of a frame say of it.
+std::vector<std::pair<std::string, std::string>> frame_metadata(const FrameFacts& facts);
 
 struct WrittenKinds {
     bool exr = true;
@@ -36,6 +41,10 @@ public:
     /// Hands over a frame; `facts` lacks only beauty_hash, exposure and files. Waits while the
     /// queue is full. Throws what went wrong with an earlier frame (disk full, ...).
     void write(FrameFacts facts, gpu::RenderResult result);
+
+    /// Where pictures may be made by others, before write() is given their facts with beauty_hash, exposure and files, and a
+    /// result without pixels.
+    const std::filesystem::path& scratch() const;
 
     /// Waits until everything is written, frames.jsonl included. Throws what went wrong.
     void finish();

@@ -77,7 +77,8 @@ Json camera_json(const scene::Camera& camera, int width, int height)
         json["vertical_fov_rad"] = shortest(camera.vertical_fov_rad);
         focal_px = shortest(0.5f * static_cast<float>(height) * projection[1][1]);
     }
-    json["intrinsics"] = {{"fx", focal_px}, {"fy", focal_px}, {"cx", 0.5 * width}, {"cy", 0.5 * height}};
+    json["intrinsics"] = {{"fx", focal_px}, {"fy", focal_px}, {"cx", shortest(0.5f * static_cast<float>(width) * (1.0f - camera.shift.x))},
+                          {"cy", shortest(0.5f * static_cast<float>(height) * (1.0f + camera.shift.y))}};
     json["conventions"] = orthographic ? kOrthographic : kPerspective;
     json["near_m"] = shortest(camera.near_m);
     return json;

@@ -246,6 +246,7 @@ scene::Camera camera_at(const ScenarioCamera& camera, const scene::Scene& scene,
         result.vertical_fov_rad = static_cast<float>(*camera.keys.front().fov_degrees * kDegree);
     }
     if (camera.near_m) result.near_m = static_cast<float>(*camera.near_m);
+    result.shift = glm::vec2(camera.shift);
     return result;
 }
 

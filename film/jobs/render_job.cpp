@@ -32,6 +32,7 @@
 #include "film/scenes/snow_tracks.h"
 #include "film/scenes/transport.h"
 #include "film/scenes/weather_textures.h"
+#include "film/tiles/tiled_picture.h"
 #include "scene/merge.h"
 
 namespace petrichor::film {
@@ -198,6 +199,29 @@ struct Worker {
     gpu::RenderResult result = {};
 };
 
+// Renders the worker's picture in tiles and makes its files, beside those of the writer.
+void make_in_tiles(Worker& worker, const Pending& one, const Sequence& sequence, const RenderRequest& request,
+                   const TilePlan& plan, const fs::path& folder)
+{
+    const ScenarioOutput& output = sequence.scenario.output;
+    FrameFacts& facts = worker.facts;
+    facts.job = one.job;
+    facts.made_from = one.made_from;
+    facts.input.settings.seed = worker.what.frame.settings.seed;
+    const TiledFiles files{folder, output.exr ? file_name(one.job, "exr") : "",
+                           output.png ? file_name(one.job, "png") : "", frame_metadata(facts)};
+    TiledOptions options{sequence.display.get(), request.threads, request.stop, {}};
+    if (request.watcher)
+        options.tile_done = [&](int tile) { request.watcher->tile(one.job.frame, tile, plan.count()); };
+    const TiledPicture made = render_tiled(worker.renderer, worker.what.frame, plan, files, options);
+    facts.beauty_hash = made.beauty_hash;
+    facts.exposure = made.exposure;
+    facts.falling = made.falling;
+    facts.light = made.light;
+    for (const std::string& name : {files.exr, files.png})
+        if (!name.empty()) facts.files[name] = file_mark(folder / name);
+}
+
 void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report, RenderTally& tally)
 {
@@ -217,6 +241,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
         FrameWriter writer(request.folder, {output.exr, output.png},
                            {.stop = request.stop, .published = &tally.there});
         Meter meter(sequence);
+        const TilePlan plan = plan_tiles(output.width, output.height, sequence.scenario.render.tile);
         OrderedWork work;
         work.begin = [&](std::size_t worker, std::size_t i) {
             workers[worker].what = pending[i].frame;
@@ -231,6 +256,11 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
                 worker.environment = one.frame.environment;
             }
             worker.facts.exposure_by = meter.expose(worker.renderer, one.job, worker.what.frame);
+            if (plan.count() > 1) {
+                worker.result = {};
+                make_in_tiles(worker, one, sequence, request, plan, writer.scratch());
+                return;
+            }
             worker.result = worker.renderer.render(worker.what.frame);
             show(worker.result, sequence.display.get(), worker.what.frame.settings.dither);
         };
@@ -325,10 +355,11 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
 {
     const Scenario& scenario = sequence.scenario;
     scene::merge_primitives(sequence.scene);
+    const TilePlan plan = plan_tiles(scenario.output.width, scenario.output.height, scenario.render.tile);
     const MemoryNeed need = check_memory(
         sequence.scene,
         {.max_size = scenario.scene.max_texture, .threads = request.threads, .stop = request.stop},
-        scenario.output.width, scenario.output.height, request.memory_budget);
+        plan.window_width(), plan.window_height(), request.memory_budget);
     gpu::WeatherMaps maps =
         read_weather_textures(scenario.render.weather_textures, scenario.folder);
     maps.tracks = draw_tracks(scenario.ground.tracks);

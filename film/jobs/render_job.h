@@ -21,6 +21,13 @@ public:
     virtual void tracing(double share) { static_cast<void>(share); }
     /// Before the first of `count` pictures.
     virtual void begin(int count, const ScenarioOutput& output, const gpu::DeviceInfo& device) = 0;
+    /// `done` of the `count` tiles of a frame's picture are rendered; from any thread.
+    virtual void tile(int frame, int done, int count)
+    {
+        static_cast<void>(frame);
+        static_cast<void>(done);
+        static_cast<void>(count);
+    }
     /// `count` pictures are on disk.
     virtual void written(int count) = 0;
 };

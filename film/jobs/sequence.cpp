@@ -19,6 +19,7 @@
 #include "film/scenario/look_keys.h"
 #include "film/scenario/material_keys.h"
 #include "film/scenes/shapes.h"
+#include "film/tiles/tile_plan.h"
 
 namespace petrichor::film {
 namespace {
@@ -27,7 +28,6 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kBloom = 0.04;  // of an eye, or a lens that is not quite clean
 constexpr double kWhiteShare = 0.8;  // of the cast of the light, by eye
 constexpr int kLargestSide = 16384;
-constexpr std::int64_t kMostPixels = 64 << 20;
 
 std::optional<int> whole_number(std::string_view text)
 {
@@ -61,6 +61,10 @@ void add_camera(Hasher& hasher, const scene::Camera& camera)
     hasher.add(camera.vertical_fov_rad);
     hasher.add(camera.near_m);
     hasher.add(camera.orthographic_height_m);
+    if (camera.shift != glm::vec2(0.0f)) {
+        hasher.add(camera.shift.x);
+        hasher.add(camera.shift.y);
+    }
 }
 
 void add_lens(Hasher& hasher, const gpu::Frame& frame)
@@ -207,9 +211,8 @@ void check_size(const ImageSize& size)
 {
     const bool sides = size.width >= 1 && size.height >= 1 && size.width <= kLargestSide &&
                        size.height <= kLargestSide;
-    if (!sides || static_cast<std::int64_t>(size.width) * size.height > kMostPixels) {
-        throw Error("size: width and height must be 1 to " + std::to_string(kLargestSide) +
-                        " pixels, together at most " + std::to_string(kMostPixels) + ", got " +
+    if (!sides) {
+        throw Error("size: width and height must be 1 to " + std::to_string(kLargestSide) + " pixels, got " +
                         std::to_string(size.width) + "x" + std::to_string(size.height),
                     "For example --size 1280x720.");
     }
@@ -593,6 +596,8 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
         hasher.add(scenario.scene.max_texture);
         hasher.add(scenario.scene.texture_rule);
         hasher.add(scenario.render.ripple_texture_size);
+        if (is_tiled(scenario.output.width, scenario.output.height, scenario.render.tile))
+            hasher.add(plan_tiles(scenario.output.width, scenario.output.height, scenario.render.tile).tile);
     });
     // The frames around it say how it is exposed.
     const auto metered = metered_jobs(sequence, what.job);

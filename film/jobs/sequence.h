@@ -32,7 +32,7 @@ struct ImageSize {
     int height = 0;
 };
 
-/// "640x360". Throws Error for anything else, for 0 and for more than 16384 a side or 64 Mpixels.
+/// "640x360". Throws Error for anything else, for 0 and for more than 16384 a side.
 ImageSize parse_size(std::string_view text);
 void check_size(const ImageSize& size);
 

@@ -66,6 +66,13 @@ std::vector<Rule> camera_rules()
          [](Scenario& s, const TomlValue& v) { s.camera.interpolation = v.interpolation(); }},
         {{"camera", "near_m", "0.05", "nothing nearer than this is drawn, metres"},
          [](Scenario& s, const TomlValue& v) { s.camera.near_m = v.number(1e-4, 1e4); }},
+        {{"camera", "shift", "[0.0, 0.3]",
+          "of the lens, right and up, in halves of the picture's width and height, -4 to 4: a camera that looks level "
+          "shows a tower whole and its verticals upright"},
+         [](Scenario& s, const TomlValue& v) {
+             const auto shift = v.numbers(2, -4.0, 4.0);
+             s.camera.shift = {shift[0], shift[1]};
+         }},
         {{"camera", "exposure", "1.0e-4",
           "of the PNG: \"auto\" (metered from the picture; as without this key), \"incident\" "
           "(from the "

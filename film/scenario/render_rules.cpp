@@ -103,6 +103,13 @@ std::vector<Rule> render_rules()
           "ones: "
           "0 (all samples everywhere) to 1"},
          [](Scenario& s, const TomlValue& v) { s.render.adaptive = v.number(0.0, 1.0); }},
+        {{"render", "tile", "2048",
+          "pixels a side of the tiles that a picture is rendered in, 32 to 4096, in steps of 32: they take less memory; "
+          "without it pictures of more than 16 Mpixels are rendered in tiles of 2048"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.tile = v.integer(32, 4096);
+             if (s.render.tile % 32 != 0) v.refuse("a multiple of 32");
+         }},
         {{"render", "lod_scale", "1.0",
           "levels of detail (glTF MSFT_lod) are chosen as if things were so much larger, 0.01 to "
           "100"},

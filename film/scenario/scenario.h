@@ -59,6 +59,7 @@ struct ScenarioCamera {
     std::vector<CameraKey> keys;  ///< a path of our own; wins over `name`
     Interpolation interpolation = Interpolation::Smooth;
     std::optional<double> near_m;
+    glm::dvec2 shift{0.0};  ///< of the lens, as scene::Camera's
     Exposure exposure_mode = Exposure::Auto;
     KeyedNumber exposure;          ///< with Fixed: linear scale, else ..
     KeyedNumber ev100;             ///< .. the exposure value at ISO 100
@@ -207,6 +208,7 @@ struct ScenarioRender : gpu::FrameSwitches {
     double anisotropic_dither_fade_m = 15.0;
     double adaptive = 0.02;         ///< 0: all samples everywhere
     double lod_scale = 1.0;
+    int tile = 0;                   ///< pixels a side of the tiles that a picture is rendered in; 0: where it is large
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
     IndirectLight indirect = IndirectLight::Auto;

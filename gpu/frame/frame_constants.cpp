@@ -67,6 +67,25 @@ float fog_per_m(const Frame& frame)
     }
 }
 
+float lens_wetness(const Frame& frame)
+{
+    const shared::WeatherMoment& w = frame.weather;
+    // A lens that was just rained on dries as the ground does.
+    return frame.settings.wet_lens *
+           std::clamp(2.0f * w.rain * (1.0f - w.water_to_snow) + 0.5f * w.film_albedo, 0.0f, 1.0f);
+}
+
+bool is_white_balanced(const FrameSettings& s)
+{
+    return s.white_light != glm::vec3(0.0f) || s.white_balance_k > 0.0f;
+}
+
+glm::vec3 white_gains(const FrameSettings& s)
+{
+    if (s.white_light != glm::vec3(0.0f)) return shared::white_balance_gains_of_light(s.white_light, s.white_share);
+    return s.white_balance_k > 0.0f ? shared::white_balance_gains(s.white_balance_k) : glm::vec3(1.0f);
+}
+
 shared::WeatherMoment with_closed_film(shared::WeatherMoment weather)
 {
     // Lux's 0.85 and 0.5 of a wet hour.
@@ -114,15 +133,9 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.fog_end_m = frame.fog.end_m;
     c.fog_height_m = frame.fog.height_m;
     c.fog_base_m = scene.low.y;
-    const bool metered_white = s.white_light != glm::vec3(0.0f);
-    if (metered_white) {
-        c.white_gains = shared::white_balance_gains_of_light(s.white_light, s.white_share);
-    } else {
-        c.white_gains = s.white_balance_k > 0.0f ? shared::white_balance_gains(s.white_balance_k) : glm::vec3(1.0f);
-    }
+    c.white_gains = white_gains(s);
     c.bloom = s.bloom;
-    // A lens that was just rained on dries as the ground does.
-    c.wet_lens = s.wet_lens * std::clamp(2.0f * w.rain * (1.0f - w.water_to_snow) + 0.5f * w.film_albedo, 0.0f, 1.0f);
+    c.wet_lens = lens_wetness(frame);
     c.emissive_scale = frame.emissive_scale;
     c.occlusion_direct = s.occlusion_direct;
     c.horizon_fade = s.horizon_fade;
@@ -137,7 +150,7 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.sun_angular_cos = std::cos(kSunAngularRadius);
     const auto flag = [&c](bool on, std::uint32_t bit) { c.flags |= on ? bit : 0u; };
     flag(s.dither, FRAME_DITHER);
-    flag(metered_white || s.white_balance_k > 0.0f, FRAME_WHITE_BALANCE);
+    flag(is_white_balanced(s), FRAME_WHITE_BALANCE);
     flag(s.shelter, FRAME_SHELTER);
     flag(sun.disc, FRAME_SUN_DISC);
     flag(s.gamma, FRAME_GAMMA);

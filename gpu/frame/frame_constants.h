@@ -27,6 +27,12 @@ shared::WeatherMoment with_closed_film(shared::WeatherMoment weather);
 /// What of the weather can show in a frame, constant water and snow of materials included.
 VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weather);
 
+/// How wet the lens is in this frame, 0 dry: the setting under the weather of the moment.
+float lens_wetness(const Frame& frame);
+/// Whether the display is white balanced, and the gains of the cones for it.
+bool is_white_balanced(const FrameSettings& settings);
+glm::vec3 white_gains(const FrameSettings& settings);
+
 /// Extinction or density of the frame's fog at its base, 1/m; 0: no fog.
 float fog_per_m(const Frame& frame);
 

@@ -127,7 +127,7 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     }
     const glm::vec2 half = scene::half_extent_m(camera, width, height);
     glm::mat4 projection = scene::clip_projection(camera, width, height, c.far_m);
-    projection[1][1] = -projection[1][1];  // rows of a picture go down
+    for (int i = 0; i < 4; ++i) projection[i][1] = -projection[i][1];  // rows of a picture go down
 
     // Another point of the lens sees what is in focus where its middle does.
     const glm::vec3 aside = axes.right * lens_m.x + axes.up * lens_m.y;
@@ -156,8 +156,9 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     c.near_m = camera.near_m;
     c.ray_dx = axes.right * (2.0f * half.x / w);
     c.ray_dy = -axes.up * (2.0f * half.y / h);
-    const glm::vec3 corner =
-        -axes.right * half.x + axes.up * half.y + c.ray_dx * jitter.x + c.ray_dy * jitter.y;
+    const glm::vec2 middle = half * camera.shift;
+    const glm::vec3 corner = axes.right * (middle.x - half.x) + axes.up * (middle.y + half.y) +
+                             c.ray_dx * jitter.x + c.ray_dy * jitter.y;
     c.ray_corner = axes.forward + corner;
     if (lens_m != glm::vec2(0.0f)) c.ray_corner -= aside / focus_m;
     c.origin_corner = axes.position + corner;
@@ -193,7 +194,9 @@ DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun
 {
     const Axes axes = axes_of(camera);
     const float half_y = scene::half_extent_m(camera, 1, 1).y;
-    const float k = half_y * half_y * (1.0f + aspect * aspect);
+    // Where a lens is shifted, the sphere lies around the axis all the same and holds what is farthest from it.
+    const glm::vec2 farthest = 1.0f + glm::abs(camera.shift);
+    const float k = half_y * half_y * (farthest.y * farthest.y + aspect * aspect * farthest.x * farthest.x);
     float along;
     float radius;
     if (camera.orthographic_height_m > 0.0f) {
@@ -213,9 +216,10 @@ DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun
     std::array<glm::vec3, 8> corners;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const float away = (i & 1) ? until : begin;
+        const glm::vec2 side(i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f);
         const float wide = camera.orthographic_height_m > 0.0f ? half_y : half_y * away;
-        corners[i] = axes.position + axes.forward * away + axes.right * ((i & 2) ? aspect * wide : -aspect * wide) +
-                     axes.up * ((i & 4) ? wide : -wide);
+        const glm::vec2 at = (side + camera.shift) * glm::vec2(aspect * wide, wide);
+        corners[i] = axes.position + axes.forward * away + axes.right * at.x + axes.up * at.y;
     }
     view.asked = asked_part(view, corners, kBeside_m);
     return view;

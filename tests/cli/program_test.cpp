@@ -87,7 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             "size_overflow", {"render", "scene.glb", "--size", "99999999999x10"}, "WIDTHxHEIGHT"},
         Mistake{
-            "size_memory", {"render", "scene.glb", "--size", "16384x16384"}, "together at most"},
+            "size_memory", {"render", "scene.glb", "--size", "16384x16385"}, "1 to 16384"},
+        Mistake{"tile", {"render", "scene.glb", "--tile", "100"}, "in steps of 32"},
         Mistake{"frames", {"render", "scene.glb", "--frames", "9:3"}, "FIRST:LAST"},
         Mistake{"frames_outside", {"render", "scene.glb", "--frames", "40:60"}, "frames 0 to 47"},
         Mistake{"samples", {"render", "scene.glb", "--samples", "0"}, "samples"},

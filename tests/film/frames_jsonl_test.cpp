@@ -91,13 +91,15 @@ TEST(FramesJsonl, SayHowAFrameIsExposed)
 // A point of the world is where the line's numbers and its formula put it: where the renderer draws it.
 TEST(FramesJsonl, ACamerasNumbersFindAPointInThePicture)
 {
-    for (const float height_m : {0.0f, 6.0f}) {
+    for (const auto& [height_m, shift] : {std::pair{0.0f, glm::vec2(0.0f)}, {6.0f, glm::vec2(0.0f)},
+                                          {0.0f, glm::vec2(0.3f, -0.7f)}, {6.0f, glm::vec2(-0.4f, 0.9f)}}) {
         FrameFacts facts = facts_of(1, "a");
         facts.input.settings.width = 320;
         facts.input.settings.height = 200;
         scene::Camera& camera = facts.input.camera;
         camera.to_world = glm::inverse(glm::lookAt(glm::vec3(3, 2, 5), glm::vec3(0.5f, 1, 0), glm::vec3(0, 1, 0)));
         camera.orthographic_height_m = height_m;
+        camera.shift = shift;
         const nlohmann::json line = nlohmann::json::parse(frame_line(facts)).at("camera");
         const glm::vec4 point(0.2f, 0.4f, -0.7f, 1.0f);
         double at[3];

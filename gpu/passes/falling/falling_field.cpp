@@ -347,7 +347,8 @@ private:
         pyramid.points[0] = eye_m_ - travelled_m_;
         const glm::vec3 x = view_->right * (half_px_.x / view_->focal_px);
         const glm::vec3 y = view_->up * (half_px_.y / view_->focal_px);
-        const glm::vec3 rays[] = {-x - y, x - y, x + y, -x + y};
+        const glm::vec3 aside = x * view_->shift.x + y * view_->shift.y;
+        const glm::vec3 rays[] = {aside - x - y, aside + x - y, aside + x + y, aside - x + y};
         for (std::size_t i = 0; i < 4; ++i) {
             pyramid.points[i + 1] =
                 pyramid.points[0] + glm::dvec3(view_->forward + rays[i]) *
@@ -382,18 +383,20 @@ private:
     glm::vec2 on_screen(const glm::vec3& from_eye) const
     {
         const float scale = view_->focal_px / std::max(glm::dot(from_eye, view_->forward), 0.1f);
-        return {half_px_.x + glm::dot(from_eye, view_->right) * scale,
-                half_px_.y - glm::dot(from_eye, view_->up) * scale};
+        return {half_px_.x * (1.0f - view_->shift.x) + glm::dot(from_eye, view_->right) * scale,
+                half_px_.y * (1.0f + view_->shift.y) - glm::dot(from_eye, view_->up) * scale};
     }
 
     // Off the picture, with what may yet be added to a place.
     bool far_aside(const glm::vec3& from_eye, float most) const
     {
-        const float slack = most * (1.0f + half_px_.x / view_->focal_px);
+        const float slack =
+            most * (1.0f + half_px_.x * (1.0f + std::max(std::abs(view_->shift.x), std::abs(view_->shift.y))) / view_->focal_px);
         const float z = glm::dot(from_eye, view_->forward);
-        const glm::vec2 reach = half_px_ * (std::max(z, 0.0f) / view_->focal_px) + slack;
-        return std::abs(glm::dot(from_eye, view_->right)) > reach.x ||
-               std::abs(glm::dot(from_eye, view_->up)) > reach.y;
+        const glm::vec2 half = half_px_ * (std::max(z, 0.0f) / view_->focal_px);
+        const glm::vec2 reach = half + slack;
+        return std::abs(glm::dot(from_eye, view_->right) - half.x * view_->shift.x) > reach.x ||
+               std::abs(glm::dot(from_eye, view_->up) - half.y * view_->shift.y) > reach.y;
     }
 
     void add_drop(const glm::dvec3& where, Numbers& numbers,
@@ -476,7 +479,7 @@ float FallingView::blur_px(float distance_m) const
     return focal_px * lens.radius_m * std::abs(1.0f / lens.focus_m - 1.0f / distance_m);
 }
 
-FallingView falling_view(const shared::FrameConstants& c, const Lens& lens)
+FallingView falling_view(const shared::FrameConstants& c, const Lens& lens, const glm::vec2& shift)
 {
     FallingView view;
     view.eye_m = c.camera_m;
@@ -485,6 +488,7 @@ FallingView falling_view(const shared::FrameConstants& c, const Lens& lens)
     view.up = -glm::normalize(c.ray_dy);
     view.focal_px = 1.0f / std::max(glm::length(c.ray_dx), 1e-9f);
     view.size = c.size;
+    view.shift = shift;
     view.lens = lens.radius_m > 0.0f ? lens : Lens{.radius_m = kUsualLens_m, .focus_m = kUsualFocus_m};
     return view;
 }

@@ -33,7 +33,7 @@ std::vector<shared::FallingSplash> falling_splashes(const FallingPlan& plan, con
     const double time_s = frame.settings.time_s;
     const auto slot = static_cast<std::int64_t>(std::floor(time_s / kSlot_s));
     const std::uint32_t seed = mixed(shared::hash_u(frame.falling.seed), 128);
-    const float slope = 0.5f * static_cast<float>(view.size.x) / view.focal_px;
+    const float slope = 0.5f * static_cast<float>(view.size.x) * (1.0f + std::abs(view.shift.x)) / view.focal_px;
     const double reach = static_cast<double>(shared::kSplashReach_m);
     const auto cell_of = [](double x) { return static_cast<std::int64_t>(std::floor(x / kCell_m)); };
     const double x0 = static_cast<double>(view.eye_m.x);

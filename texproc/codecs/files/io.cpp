@@ -265,4 +265,14 @@ void write_png8(const fs::path& path, int width, int height, int channels,
     write_bytes(path, encode_png8(width, height, channels, pixels, metadata));
 }
 
+void write_png8(const fs::path& path, int width, int height, int channels,
+                const std::function<std::vector<std::byte>(std::size_t, std::size_t)>& rows,
+                const std::vector<std::pair<std::string, std::string>>& metadata)
+{
+    check_shape(path, width, height, channels);
+    write_pieces(path, [&](const detail::ByteSink& sink) {
+        detail::encode_png({.width = width, .height = height, .channels = channels, .rows = rows}, metadata, 1, 0, sink);
+    });
+}
+
 }  // namespace petrichor::texproc

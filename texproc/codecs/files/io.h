@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -94,6 +95,12 @@ std::vector<std::byte> encode_png8(
 void write_png8(const std::filesystem::path& path, int width, int height, int channels,
                 std::span<const std::uint8_t> pixels,
                 const std::vector<std::pair<std::string, std::string>>& metadata = {});
+
+/// The same of rows that are made as they are asked for: first .. end - 1, by several threads at once, some rows twice; each
+/// time the same bytes. At no time is more than some 64 MiB of it in memory.
+void write_png8(const std::filesystem::path& path, int width, int height, int channels,
+                const std::function<std::vector<std::byte>(std::size_t first, std::size_t end)>& rows,
+                const std::vector<std::pair<std::string, std::string>>& metadata);
 
 /// How well the decoder processes are locked in on this machine: "seccomp: no files, ...". Starts
 /// one.

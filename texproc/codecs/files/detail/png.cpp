@@ -131,8 +131,11 @@ Block encode_rows(const PngImage& image, std::size_t first, std::size_t end, int
     const std::size_t start = first > lines_before ? first - lines_before : 0;
     std::vector<std::uint8_t> filtered((end - start) * line);
     std::vector<std::uint8_t> scratch, now, above;
+    const std::size_t from = start > 0 ? start - 1 : 0;
+    std::vector<std::byte> made;
+    if (image.rows) made = image.rows(from, end);
     for (std::size_t y = start; y < end; ++y) {
-        const std::byte* source = image.pixels + y * row;
+        const std::byte* source = image.rows ? made.data() + (y - from) * row : image.pixels + y * row;
         const std::uint8_t* current = reinterpret_cast<const std::uint8_t*>(source);
         const std::uint8_t* previous =
             y ? reinterpret_cast<const std::uint8_t*>(source - row) : nullptr;

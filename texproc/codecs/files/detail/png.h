@@ -16,6 +16,9 @@ struct PngImage {
     int channels = 0;  ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA
     int bits = 8;      ///< 8 or 16; 16-bit samples are in the byte order of this machine
     const std::byte* pixels = nullptr;
+    /// In place of pixels: rows first .. end - 1, asked for by several threads at once and some rows twice; same bytes each
+    /// time.
+    std::function<std::vector<std::byte>(std::size_t first, std::size_t end)> rows = {};
 };
 
 /// Takes the next bytes of a file.
