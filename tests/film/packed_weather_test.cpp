@@ -129,6 +129,8 @@ TEST(Packed, DamagedArchivesAreRefusedWithWords)
 {
     const Folder folder;
     const std::string zip = zipped({{"a.csv", kCsv}}), gz = gzipped(kCsv);
+    write(folder.file("none.zip"), zipped({}));
+    EXPECT_THAT(refusal(folder.file("none.zip")), HasSubstr("zip archive is empty"));
     for (std::size_t cut = 5; cut < zip.size(); cut += 13) {
         write(folder.file("x"), zip.substr(0, cut));
         EXPECT_THAT(refusal(folder.file("x")), HasSubstr("zip")) << cut;

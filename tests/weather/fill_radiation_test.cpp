@@ -141,13 +141,14 @@ TEST(FillRadiation, NightsLieBetweenTheDaysBesideThem)
     EXPECT_TRUE(says(report, "between that of the evening")) << to_text(report);
 }
 
-TEST(FillRadiation, WhatIsAssumedIsCalledAssumed)
+TEST(FillRadiation, WhatTheAirTellsIsCalledThat)
 {
     ForcingTable t = without_sun(1);
     t[Field::Longwave].clear();
     ReadReport report;
     fill_forcing(t, report);
     EXPECT_TRUE(says(report, "full: something falls, or fog (1 row")) << to_text(report);
+    EXPECT_TRUE(says(report, "from the humidity of a day")) << to_text(report);
     EXPECT_FALSE(says(report, "from shortwave")) << to_text(report);
 }
 

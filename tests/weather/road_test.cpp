@@ -5,7 +5,9 @@
 
 #include "base/error.h"
 #include "weather/models/physical/observed_start.h"
+#include "weather/physics/cloud_of_air.h"
 #include "weather/physics/friction.h"
+#include "weather/physics/humidity.h"
 #include "weather/readers/metro_xml.h"
 #include "weather/readers/read_weather.h"
 
@@ -289,7 +291,10 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     }
     const ForcingTable t = observed_weather(o, forecast);
     ASSERT_EQ(t.rows(), 6u);  // and two of the forecast
-    const double before = 0.5 - 0.4 * std::exp(-2.0 / kCloudMemory_h);
+    // At -5 C with a dew point of -6 the air says more than half a cover.
+    const double air = cloud_of_humidity(rel_humidity_of_dew_point_pct(268.15, 267.15));
+    EXPECT_GT(air, 0.9);
+    const double before = air - (air - 0.1) * std::exp(-2.0 / kCloudMemory_h);
     EXPECT_NEAR(t[Field::Cloud][0], before, 1e-12);
     EXPECT_EQ(t[Field::Cloud][1], 1.0);
     EXPECT_NEAR(t[Field::Cloud][2], 0.1 + 0.9 * std::exp(-1.0 / kCloudMemory_h), 1e-12);
@@ -297,10 +302,13 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     EXPECT_EQ(t[Field::AirTemp][0], 268.15);
     EXPECT_EQ(t[Field::AirTemp][5], 270.15);
     EXPECT_TRUE(std::isnan(t[Field::DewPoint][4]));
-    // Nothing forecast: half a cover.
+    // Nothing forecast: what the air tells; without its humidity half a cover.
     ForcingTable silent = forecast;
     silent[Field::Cloud].clear();
-    EXPECT_EQ(observed_weather(o, silent)[Field::Cloud][0], 0.5);
+    EXPECT_NEAR(observed_weather(o, silent)[Field::Cloud][0], air, 1e-12);
+    MetroObservation dry = o;
+    dry.table[Field::DewPoint].assign(o.table.rows(), kMissing);
+    EXPECT_EQ(observed_weather(dry, silent)[Field::Cloud][0], 0.5);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "weather/physics/cloud_of_air.h"
 #include "weather/physics/detail/formulas.h"
 #include "weather/physics/humidity.h"
 #include "weather/physics/longwave.h"
@@ -29,7 +30,7 @@ public:
         for (std::size_t i = 0; i < table.rows(); ++i) from_[i] = tell(i, sun_is_known);
     }
 
-    std::vector<double> fill(double assumed, CloudFills& fills)
+    std::vector<double> fill(CloudFills& fills)
     {
         const std::size_t n = cloud_.size();
         for (std::size_t begin = 0; begin < n;) {
@@ -39,7 +40,7 @@ public:
             }
             std::size_t end = begin;
             while (end < n && from_[end] == From::Nothing) ++end;
-            between(begin, end, assumed, fills);
+            between(begin, end, fills);
             begin = end;
         }
         for (std::size_t i = 0; i < n; ++i) {
@@ -90,7 +91,7 @@ private:
         return taken / light;
     }
 
-    void between(std::size_t begin, std::size_t end, double assumed, CloudFills& fills)
+    void between(std::size_t begin, std::size_t end, CloudFills& fills)
     {
         const bool before = begin > 0, after = end < cloud_.size();
         const bool sun_before = before && from_[begin - 1] == From::Sun;
@@ -110,10 +111,15 @@ private:
             count(From::Sun, end - begin, fills);
             return;
         }
+        if (!before) {
+            const std::vector<double> air = cloud_of_air(table_.time_us, table_[Field::RelHumidity]);
+            std::copy_n(air.begin(), end, cloud_.begin());
+            count(From::Nothing, end, fills);
+            return;
+        }
         std::fill(cloud_.begin() + static_cast<std::ptrdiff_t>(begin),
-                  cloud_.begin() + static_cast<std::ptrdiff_t>(end),
-                  before ? cloud_[begin - 1] : assumed);
-        count(before && from_[begin - 1] == From::Sky ? From::Sky : From::Nothing, end - begin, fills);
+                  cloud_.begin() + static_cast<std::ptrdiff_t>(end), cloud_[begin - 1]);
+        count(from_[begin - 1] == From::Sky ? From::Sky : From::Nothing, end - begin, fills);
     }
 
     bool falls_or_fog(std::size_t row) const
@@ -126,7 +132,7 @@ private:
     {
         if (from == From::Sun) fills.from_sun += rows;
         if (from == From::Sky) fills.from_sky += rows;
-        if (from == From::Nothing) fills.assumed += rows;
+        if (from == From::Nothing) fills.from_air += rows;
     }
 
     const ForcingTable& table_;
@@ -145,9 +151,9 @@ bool falls_in(const ForcingTable& table, std::size_t row)
 }
 
 std::vector<double> cloud_of_rows(const ForcingTable& table, const std::vector<double>& sine,
-                                  bool sun_is_known, double assumed, CloudFills& fills)
+                                  bool sun_is_known, CloudFills& fills)
 {
-    return Rows(table, sine, sun_is_known).fill(assumed, fills);
+    return Rows(table, sine, sun_is_known).fill(fills);
 }
 
 }  // namespace petrichor::weather

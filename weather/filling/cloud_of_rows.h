@@ -10,7 +10,7 @@ namespace petrichor::weather {
 
 /// How many rows got their cloud in each way.
 struct CloudFills {
-    std::size_t from_sun = 0, from_sky = 0, falling = 0, assumed = 0;
+    std::size_t from_sun = 0, from_sky = 0, falling = 0, from_air = 0;
 };
 
 /// Whether 0.1 mm/h or more falls in a row.
@@ -22,12 +22,11 @@ bool falls_in(const ForcingTable& table, std::size_t row);
 /// Rows without any of these lie between two that have one. Where those know it from the sun, it is
 /// the light that clouds took in the six hours of sun before and in the six after, weighted by the
 /// clear sky, and between the two a line: a low sun alone tells little. Otherwise it is kept from
-/// the row before.
+/// the row before, and without one told by the humidity of a day (cloud_of_air).
 ///   sine  of the sun's elevation, of each row; unused where the file has cloud
 ///   sun_is_known  the file has a place
-///   assumed  where nothing at all is known
 std::vector<double> cloud_of_rows(const ForcingTable& table, const std::vector<double>& sine,
-                                  bool sun_is_known, double assumed, CloudFills& fills);
+                                  bool sun_is_known, CloudFills& fills);
 
 }  // namespace petrichor::weather
 

@@ -142,7 +142,7 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
             sine[i] = SunNear(table.time_us[i], observer).at(table.time_us[i]).up;
     }
     CloudFills clouds;
-    cloud = cloud_of_rows(table, sine, place, options.default_cloud, clouds);
+    cloud = cloud_of_rows(table, sine, place, clouds);
     std::size_t shortwave = 0, longwave = 0;
     for (std::size_t i = 0; i < n; ++i) {
         if (std::isnan(sw[i])) {
@@ -166,7 +166,8 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
                 "from shortwave; at night between that of the evening and of the morning");
     note_filled(report, cloud_name, clouds.from_sky, "from longwave (Dilley & O'Brien 1998)");
     note_filled(report, cloud_name, clouds.falling, "full: something falls, or fog");
-    note_filled(report, cloud_name, clouds.assumed, "assumed");
+    note_filled(report, cloud_name, clouds.from_air,
+                "from the humidity of a day: half a cover where dry, full where saturated");
     note_filled(report, field_info(Field::Shortwave).name, shortwave,
                 "clear sky (Haurwitz 1945) and cloud (Kasten & Czeplak 1980)" + where +
                     (net.empty() ? "" : "; what the ground takes up is the file's sw_net"));

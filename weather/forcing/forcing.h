@@ -90,7 +90,6 @@ enum class MissingPrecip : std::uint8_t {
     Estimate,  ///< a rate where the sky is overcast and the air near saturation; see fill_forcing
 };
 struct FillOptions {
-    double default_cloud = 0.5;  ///< where neither radiation nor cloud is known
     MissingPrecip missing_precip = MissingPrecip::Dry;
     std::int64_t longest_gap_us =
         6LL * 3600 * 1000000;  ///< bridged by a line; longer gaps are noted
@@ -101,7 +100,7 @@ struct FillOptions {
 /// phases).
 ///
 /// Order: short gaps by a line between neighbours (rates: 0); humidity from the dew point, else 70
-/// %; pressure from the elevation; cloud from shortwave, else from longwave; shortwave from sun and
+/// %; pressure from the elevation; cloud from shortwave, else from longwave, else from humidity; shortwave from sun and
 /// cloud; longwave from humidity and cloud (Dilley & O'Brien 1998). Every fill is added to the report.
 /// Where the sun has to be made, rows further apart than an hour are divided into hours, so that
 /// noon is not missed; net shortwave keeps its mean and follows the made sun.

@@ -91,7 +91,9 @@ bool is_gzip(std::span<const std::byte> bytes)
 
 bool is_zip(std::span<const std::byte> bytes)
 {
-    return bytes.size() > 4 && std::memcmp(bytes.data(), "PK\x03\x04", 4) == 0;
+    // The second is that of an archive without entries.
+    return bytes.size() > 4 && (std::memcmp(bytes.data(), "PK\x03\x04", 4) == 0 ||
+                                std::memcmp(bytes.data(), "PK\x05\x06", 4) == 0);
 }
 
 std::vector<std::byte> gunzipped(std::span<const std::byte> bytes, std::size_t most)

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/collector.h"
 #include "weather/readers/number_text.h"
 #include "weather/readers/text.h"
@@ -157,6 +158,20 @@ void RowCollector::refuse_warm_dew() const
 }
 
 // A column of nothing but zeros was not measured: a year without rain, days without sun or wind.
+namespace {
+
+bool is_temperature(Field field)
+{
+    return field == Field::AirTemp || field == Field::DewPoint;
+}
+// A temperature that was 0 in the file, of either scale.
+bool is_zero_degrees(double temp_k)
+{
+    return std::abs(temp_k - kZeroCelsiusK) < 1e-6 || std::abs(temp_k - 255.3722222) < 1e-4;
+}
+
+}  // namespace
+
 void RowCollector::drop_empty_columns()
 {
     const double days =
@@ -166,7 +181,7 @@ void RowCollector::drop_empty_columns()
         bool any = false;
         for (const double x : v) {
             if (std::isnan(x)) continue;
-            if (x != 0.0) return false;
+            if (x != 0.0 && !(is_temperature(field) && is_zero_degrees(x))) return false;
             any = true;
         }
         for (const Fallen& f : fallen_) {
@@ -180,7 +195,8 @@ void RowCollector::drop_empty_columns()
         Field field;
         double days;  // so long it may be 0
     };
-    constexpr Rule kRules[] = {{Field::Precip, 60.0},     {Field::Shortwave, 3.0},
+    constexpr Rule kRules[] = {{Field::AirTemp, 2.0},      {Field::DewPoint, 2.0},
+                               {Field::Precip, 60.0},     {Field::Shortwave, 3.0},
                                {Field::Longwave, 1.0},    {Field::Wind, 3.0},
                                {Field::RelHumidity, 1.0}, {Field::Direct, 20.0},
                                {Field::Diffuse, 3.0},     {Field::WindFrom, 3.0},

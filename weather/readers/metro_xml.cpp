@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "base/error.h"
+#include "weather/physics/cloud_of_air.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/portable_math.h"
+#include "weather/physics/humidity.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 
@@ -264,10 +266,15 @@ ForcingTable observed_weather(const MetroObservation& observed, const ForcingTab
     const auto kept = [](std::int64_t later_us) {
         return detail::exponential(static_cast<double>(-later_us) / (kCloudMemory_h * 3600e6));
     };
+    std::vector<double> humidity;
+    for (std::size_t i = 0; i < t.rows(); ++i)
+        humidity.push_back(
+            rel_humidity_of_dew_point_pct(t[Field::AirTemp][i], t[Field::DewPoint][i]));
+    const std::vector<double> air = cloud_of_air(t.time_us, humidity);
     std::optional<std::int64_t> fell_us;
     for (std::size_t i = 0; i < t.rows(); ++i) {
         const std::int64_t now_us = t.time_us[i];
-        double cover = kHalfCover;
+        double cover = std::isnan(air[i]) ? kHalfCover : air[i];
         const auto next =
             std::upper_bound(forecast.time_us.begin(), forecast.time_us.end(), now_us);
         const auto row = std::max<std::ptrdiff_t>(next - forecast.time_us.begin() - 1, 0);

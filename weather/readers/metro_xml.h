@@ -37,9 +37,10 @@ MetroObservation read_metro_observation(std::string_view text);
 /// The weather over the hours that were measured, not filled: air, dew point and wind as measured.
 ///
 /// Clouds are those of `forecast`. Before it those of its beginning, the less certain the longer
-/// before: they fade to half a cover by exp(-t / kCloudMemory_h). Where something falls the sky is
-/// overcast, and that fades as well, never knowing what comes later. Rows of `forecast` that come
-/// after the last measured one follow, without its radiation and rain.
+/// before: they fade to what the measured humidity tells (cloud_of_air) by exp(-t /
+/// kCloudMemory_h). Where something falls the sky is overcast, and that fades as well, never
+/// knowing what comes later. Rows of `forecast` that come after the last measured one follow,
+/// without its radiation and rain.
 inline constexpr double kCloudMemory_h = 24.0;
 ForcingTable observed_weather(const MetroObservation& observed, const ForcingTable& forecast);
 

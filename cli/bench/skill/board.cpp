@@ -196,10 +196,13 @@ Board skill_board(const SkillOptions& options)
     board.notes = sets.notes;
     for (const SkillRival& rival : options.rivals) board.rivals.push_back(rival.name);
     for (const WinterSet& set : sets.winters) add_winter(set, options, board);
+    std::vector<PlacedRows> skies;
     for (const WinterSet& set : sets.winters)
-        add_rows(longwave_rows(set.winter.name, set.raw), board);
+        skies.push_back({set.raw.site, longwave_rows(set.winter.name, set.raw)});
     for (const LongwaveStation& station : sets.stations)
-        add_rows(longwave_rows(station.name, station.raw), board);
+        skies.push_back({station.raw.site, longwave_rows(station.name, station.raw)});
+    for (const PlacedRows& sky : skies) add_rows(sky.rows, board);
+    add_rows(longwave_of_places(skies), board);
     for (const LongwaveStation& station : sets.stations)
         add_rows(meadow_rows(station, params_of(options, "lawn")), board);
     for (const RoadCase& road : sets.roads) {
@@ -207,7 +210,6 @@ Board skill_board(const SkillOptions& options)
             const weather::PhysicalParams params =
                 params_of(options, road.station.bridge ? "bridge" : "road");
             add_rows(road_rows(road, params), board);
-            add_rows(measured_road_rows(road, params), board);
             add_rows(road_hindcast_rows(road, params), board);
         } catch (const Error& e) {
             board.notes.push_back(road.name + ": " + e.what());

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <map>
+#include <utility>
 
 #include "weather/physics/constants.h"
 #include "weather/readers/text.h"
@@ -14,6 +17,7 @@ using weather::ForcingTable;
 
 namespace {
 
+constexpr const char* kUnderCloud = "longwave under cloud";
 constexpr std::size_t kFewHours = 50;
 constexpr double kStep = 0.03;  // of the measured sky: 10 W/m2; the year's round makes 0.012
 constexpr double kSun_w_m2 = 300.0, kClear = 0.3;  // 0.3 of cloud takes a hundredth of the sun
@@ -81,6 +85,31 @@ ForcingTable without_longwave(const ForcingTable& raw)
     return table;
 }
 
+namespace {
+
+// Longwave and sunlight as they are made where a file has neither them nor clouds.
+std::vector<SkillRow> rows_of_air_alone(const std::string& set, const ForcingTable& raw)
+{
+    ForcingTable air = raw;
+    for (const Field f : {Field::Longwave, Field::Shortwave, Field::NetShortwave, Field::Direct,
+                          Field::Diffuse, Field::Cloud})
+        air[f].clear();
+    weather::ReadReport report;
+    weather::fill_forcing(air, report);
+    if (air.rows() != raw.rows()) return {};
+    std::vector<SkillRow> rows;
+    for (const Field f : {Field::Longwave, Field::Shortwave}) {
+        if (!raw.has(f)) continue;
+        ErrorSum sum;
+        for (std::size_t i = 0; i < raw.rows(); ++i) sum.add(air[f][i] - raw[f][i]);
+        rows.push_back({set, f == Field::Longwave ? "longwave by air alone" : "sun by air alone",
+                        "W/m2", sum.count(), sum.rmse(), sum.bias(), "RMSE"});
+    }
+    return rows;
+}
+
+}  // namespace
+
 std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& raw)
 {
     if (!raw.has(Field::Longwave)) return {};
@@ -108,7 +137,7 @@ std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& 
     std::vector<SkillRow> rows{
         {set, "longwave", "W/m2", all.count(), all.rmse(), all.bias(), "RMSE"}};
     if (cloudy.count() > 0) {
-        rows.push_back({set, "longwave under cloud", "W/m2", cloudy.count(),
+        rows.push_back({set, kUnderCloud, "W/m2", cloudy.count(),
                         std::abs(cloudy.bias()), cloudy.bias(), "|bias|"});
     }
     if (sunny.count() >= kFewHours) {
@@ -121,6 +150,7 @@ std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& 
         rows.push_back({set, "longwave, that sky black", "W/m2", levelled.count(),
                         std::abs(levelled.bias()), levelled.bias(), "|bias|"});
     }
+    for (SkillRow& row : rows_of_air_alone(set, raw)) rows.push_back(std::move(row));
     if (std::abs(step.step) >= kStep) {
         // What follows such a day is another instrument's, or another place's.
         const std::string day = weather::iso_from_us(step.from_us).substr(0, 10);
@@ -130,6 +160,34 @@ std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& 
                         std::abs(cloudy_before.bias()), cloudy_before.bias(), "|bias|"});
         rows.push_back({set, "under cloud from " + day, "W/m2", cloudy_after.count(),
                         std::abs(cloudy_after.bias()), cloudy_after.bias(), "|bias|"});
+    }
+    return rows;
+}
+
+std::vector<SkillRow> longwave_of_places(const std::vector<PlacedRows>& sets)
+{
+    struct Sum {
+        double error = 0.0;
+        std::size_t hours = 0, sets = 0;
+    };
+    std::map<std::pair<double, double>, Sum> places;
+    for (const PlacedRows& set : sets) {
+        for (const SkillRow& row : set.rows) {
+            if (row.quantity != kUnderCloud) continue;
+            Sum& sum = places[{set.site.latitude_deg, set.site.longitude_deg}];
+            sum.error += row.bias * static_cast<double>(row.count);
+            sum.hours += row.count;
+            ++sum.sets;
+        }
+    }
+    std::vector<SkillRow> rows;
+    for (const auto& [place, sum] : places) {
+        if (sum.sets < 2) continue;
+        char name[64];
+        std::snprintf(name, sizeof name, "%.2f N %.2f E", place.first, place.second);
+        const double bias = sum.error / static_cast<double>(sum.hours);
+        rows.push_back({name, "under cloud, all sets", "W/m2", sum.hours, std::abs(bias), bias,
+                        "|bias|"});
     }
     return rows;
 }

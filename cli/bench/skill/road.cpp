@@ -14,7 +14,6 @@ using weather::Field;
 using weather::ForcingTable;
 
 constexpr double kStep_s = 600.0;
-constexpr std::int64_t kThreeHours_us = 3LL * 3600 * weather::kMicrosPerSecond;
 
 std::size_t last_measured(const weather::MetroObservation& observed)
 {
@@ -56,25 +55,9 @@ ForcingTable table_of(const RoadCase& road, std::int64_t begin_us, double emissi
     return t;
 }
 
-// Clouds of a forecast at other times; before it those of its beginning, after it of its end.
-std::vector<double> clouds_at(const ForcingTable& forecast, const std::vector<std::int64_t>& times)
+SkillRow row_of(const RoadCase& road, const char* quantity, const ErrorSum& sum)
 {
-    std::vector<double> clouds;
-    const std::vector<double>& cloud = forecast[Field::Cloud];
-    if (cloud.empty()) return clouds;
-    for (const std::int64_t t : times) {
-        const auto next = std::upper_bound(forecast.time_us.begin(), forecast.time_us.end(), t);
-        const auto row = std::max<std::ptrdiff_t>(next - forecast.time_us.begin() - 1, 0);
-        clouds.push_back(cloud[static_cast<std::size_t>(row)]);
-    }
-    return clouds;
-}
-
-SkillRow row_of(const RoadCase& road, const char* quantity, const ErrorSum& sum, bool mae)
-{
-    return {
-        road.name,           quantity, "K", sum.count(), mae ? sum.mae() : sum.rmse(), sum.bias(),
-        mae ? "MAE" : "RMSE"};
+    return {road.name, quantity, "K", sum.count(), sum.mae(), sum.bias(), "MAE"};
 }
 
 }  // namespace
@@ -102,41 +85,11 @@ std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalPar
         if (metro > 0)
             conditions.add(static_cast<int>(weather::road_condition(cell)) == metro ? 0.0 : 1.0);
     }
-    SkillRow other = row_of(road, "other condition than METRo", conditions, true);
+    SkillRow other = row_of(road, "other condition than METRo", conditions);
     other.unit = "share";
     other.measure = "of hours";
-    return {row_of(road, "road beside METRo", ours, true),
-            row_of(road, "air beside METRo", air, true), other};
-}
-
-std::vector<SkillRow> measured_road_rows(const RoadCase& road,
-                                         const weather::PhysicalParams& params)
-{
-    const std::vector<std::int64_t>& times = road.observed.table.time_us;
-    std::size_t first = 0;
-    while (first < times.size() && std::isnan(road.observed.surface_c[first])) ++first;
-    if (first == times.size() || times.back() - times[first] < kThreeHours_us) return {};
-    weather::PhysicalParams p = params;
-    p.surface.layers = road.station.layers;
-    p.step_s = p.substep_s = kStep_s;
-    ForcingTable table = road.observed.table;
-    table.site = road.station.site;
-    table[Field::Cloud] = clouds_at(road.forecast, times);
-    weather::ReadReport report;
-    weather::fill_forcing(table, report);
-    const weather::CellState start =
-        weather::observed_start(table, p, temperatures(road, first + 1));
-    if (times[first] != table.time_us.front()) return {};
-    const weather::PhysicalTimeline run(table, p, start, table.time_us.front());
-    ErrorSum ours, air;
-    for (std::size_t i = first + 1; i < times.size(); ++i) {
-        const double seen_c = road.observed.surface_c[i];
-        ours.add(run.state_at(times[i]).surface_temp_c - seen_c);
-        if (!std::isnan(seen_c))
-            air.add(road.observed.table[Field::AirTemp][i] - weather::kZeroCelsiusK - seen_c);
-    }
-    return {row_of(road, "road measured", ours, false),
-            row_of(road, "air beside the measured road", air, false)};
+    return {row_of(road, "road beside METRo", ours),
+            row_of(road, "air beside METRo", air), other};
 }
 
 }  // namespace petrichor::cli

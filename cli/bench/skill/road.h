@@ -24,12 +24,6 @@ struct RoadCase {
 /// are of a road or a bridge; its layers are the station's.
 std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalParams& params);
 
-/// Root mean square error against the measured road over the hours before the forecast, from their
-/// first value on: air, dew point and wind as measured, clouds of the forecast where it has begun,
-/// those of its beginning before that. Empty where there are less than three hours.
-std::vector<SkillRow> measured_road_rows(const RoadCase& road,
-                                         const weather::PhysicalParams& params);
-
 }  // namespace petrichor::cli
 
 #endif

@@ -17,7 +17,7 @@ constexpr double kStep_s = 600.0;
 constexpr std::int64_t kHour_us = 3600LL * weather::kMicrosPerSecond;
 constexpr std::int64_t kLeast_us = 6 * kHour_us, kBefore_us = 3 * kHour_us,
                        kAhead_us = 6 * kHour_us;
-constexpr std::size_t kLeastValues = 6;
+constexpr std::size_t kLeastValues = 6, kFewestValues = 2;
 
 struct Errors {
     ErrorSum coupled, started, air, kept;
@@ -36,9 +36,9 @@ public:
         for (std::size_t i = 0; i < surface_c.size(); ++i)
             if (!std::isnan(surface_c[i])) measured_.push_back(i);
     }
-    bool long_enough() const
+    bool lasts(std::size_t values, std::int64_t span_us) const
     {
-        return measured_.size() >= kLeastValues && time(measured_.back()) - begin() >= kLeast_us;
+        return measured_.size() >= values && time(measured_.back()) - begin() >= span_us;
     }
     void fill()
     {
@@ -118,7 +118,7 @@ std::vector<SkillRow> road_hindcast_rows(const RoadCase& road,
                                          const weather::CouplingParams& coupling)
 {
     Hindcast hindcast(road, params, coupling);
-    if (!hindcast.long_enough()) return {};
+    if (!hindcast.lasts(kFewestValues, kBefore_us)) return {};
     hindcast.fill();
     std::vector<SkillRow> rows;
     const auto add = [&](const char* what, const std::string& ahead, const ErrorSum& sum) {
@@ -133,6 +133,7 @@ std::vector<SkillRow> road_hindcast_rows(const RoadCase& road,
         add("road kept", ahead, errors.kept);
     };
     add_all(hindcast.all_ahead(), "all ahead", false);
+    if (!hindcast.lasts(kLeastValues, kLeast_us)) return rows;
     add_all(hindcast.half_ahead(), "half ahead");
     add_all(hindcast.hours_ahead(), "6 h ahead");
     return rows;

@@ -20,7 +20,8 @@ namespace petrichor::cli {
 /// Of each: "road coupled" (weather::couple_radiation), "road started" (the same start, no
 /// correction), "air" and "road kept".
 ///
-/// Empty where fewer than six hours or six values are measured.
+/// Empty where fewer than three hours or two values are measured, the last two sets where fewer than
+/// six of either.
 std::vector<SkillRow> road_hindcast_rows(const RoadCase& road,
                                          const weather::PhysicalParams& params,
                                          const weather::CouplingParams& coupling = {});
