@@ -37,6 +37,7 @@
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
 #include "formulas/light/water_film.h"
+#include "formulas/light/weak_shadow.h"
 #include "formulas/light/wet_lens.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
@@ -60,7 +61,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 70;
+SHARED_CONST int kProbeKinds = 71;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -624,6 +625,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(layer_relief_wide(up, drift_m, 0.004f + 0.1f * b.w, b.z), 1.0f + rags_hide(up, drift_m, 0.02f * c.x, b.z),
                     layer_relief(c.y, c.z, b.z) + layer_heavy(c.y, c.z, 12.0f * c.w, b.z), fog_from_above(2.0f * a.y - 1.0f, a.w));
     }
+    if (kind == 70) return vec4(weak_shadow(a.x, b.x), weak_shadow(a.y, 1.0f), weak_shadow(a.z, 0.0f), weak_shadow(0.0f, b.y));
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
 }

@@ -37,6 +37,8 @@ const std::vector<LightProperty>& light_table()
         row<&S::mask_channel>("mask_channel", "maskChannel", 0.0f, 3.0f, "0",
                               "where shadow masks hold its shadow: 1 green, 2 blue, 3 alpha, 0 nowhere; "
                               "`scene --bake shadow_mask` writes it"),
+        row<&S::shadow_strength>("shadow_strength", "shadowStrength", 0.0f, 1.0f, "1.0",
+                                 "share of its light that its shadows take away: 1 all of it, 0 it throws none"),
     };
     return table;
 }
@@ -46,6 +48,7 @@ std::string shape_light(Light& light, const LightShape& shape)
     const bool flat = shape.width_m || shape.height_m;
     const bool round = shape.radius_m || shape.length_m;
     if (shape.specular) light.specular = *shape.specular;
+    if (shape.shadow_strength) light.shadow_strength = *shape.shadow_strength;
     if (shape.mask_channel) {
         if (*shape.mask_channel != std::floor(*shape.mask_channel)) return "the channel of a shadow mask is a whole number";
         light.mask_channel = static_cast<int>(*shape.mask_channel);
@@ -91,6 +94,7 @@ LightShape shape_of_light(const Light& light)
         shape.both_sides = light.both_sides;
     }
     if (light.specular != 1.0f) shape.specular = light.specular;
+    if (light.shadow_strength != 1.0f) shape.shadow_strength = light.shadow_strength;
     if (light.mask_channel > 0) shape.mask_channel = static_cast<float>(light.mask_channel);
     return shape;
 }

@@ -19,6 +19,7 @@ struct LightShape {
     std::optional<float> height_m = {};
     std::optional<float> specular = {};  ///< of its highlights
     std::optional<float> mask_channel = {};  ///< Light::mask_channel
+    std::optional<float> shadow_strength = {};  ///< Light::shadow_strength
     bool both_sides = false;        ///< of a rectangle
 };
 
