@@ -40,6 +40,7 @@
 #include "formulas/light/translucent.h"
 #include "formulas/light/vertex_light.h"
 #include "formulas/light/water_film.h"
+#include "formulas/light/weak_shadow.h"
 #include "formulas/light/wet_lens.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
@@ -64,7 +65,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 73;
+SHARED_CONST int kProbeKinds = 74;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -646,6 +647,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 kept = shared_exponent_value(shared_exponent_code(1000.0f * c.x * vec3(a.x, 0.1f * a.y, a.z * a.z)));
         return vec4(falloff, lit.front.x - lit.back.y, kept.x + kept.y, kept.z);
     }
+    if (kind == 73) return vec4(weak_shadow(a.x, b.x), weak_shadow(a.y, 1.0f), weak_shadow(a.z, 0.0f), weak_shadow(0.0f, b.y));
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
 }

@@ -237,7 +237,7 @@ shared::FallConstants fall_constants(const DepthView& view, const glm::vec3& fro
     return c;
 }
 
-void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeather& weather,
+void fill_views(shared::FrameConstants& c, const Frame& frame, const Sun& sun, const VisibleWeather& weather,
                 const FrameResources& r)
 {
     const DepthMaps& maps = *r.depth_maps;
@@ -249,6 +249,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
         c.cascade_scale[static_cast<int>(i)] =
             maps.shadow_views[i].texel_m / std::max(c.shadow_texel_m, 1e-9f);
     }
+    c.cascade_scale.w = sun.shadow_strength;
     c.cascade_end_m = glm::vec4(
         coarse ? glm::vec3(-1.0f) : cascade_ends_m(whole_of(frame, r).camera, r.scene->bounds()), 0.0f);
     c.shelter_from_world = maps.shelter_view.map_from_world;
@@ -490,7 +491,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     // Which material a pixel has is kept with the weather.
     // Shares of two sets lie beside the weather, and light asks for them too.
     const bool weathered =
-        weather.any || r.scene->decals_refused() || r.scene->two_sets() || r.scene->point_lamps();
+        weather.any || r.scene->decals_refused() || r.scene->two_sets() || r.scene->point_lamps() || r.scene->unshadowed();
     weather.any = weathered || r.materials;
     const auto time_s = static_cast<float>(settings.time_s);
 
@@ -533,7 +534,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.lamp_shadows = !r.lights->shadowed.empty();
     variant.soft_lamps = soft_lamps;
     variant.rectangles = r.lights->rectangles;
-    variant.ways = r.lights->ways | (r.scene->point_lamps() ? LIGHTS_BY_MATERIAL : 0u) | (frame.sun_cookie.first_texel >= 0 ? LIGHTS_SUN_COOKIE : 0u);
+    variant.ways = r.lights->ways | (r.scene->point_lamps() ? LIGHTS_BY_MATERIAL : 0u) | (frame.sun_cookie.first_texel >= 0 ? LIGHTS_SUN_COOKIE : 0u) |
+                   (sun.shadow_strength != 1.0f ? LIGHTS_WEAK_SUN_SHADOW : 0u) | (r.scene->unshadowed() ? LIGHTS_UNSHADOWED : 0u);
     variant.all_lights = settings.all_lights;
     variant.sparkle = any ? weathered : weather.snow && variant.sun && frame.look.snow_sparkle > 0.0f;
     variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
@@ -546,7 +548,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     for (std::uint32_t i = range.first; i < range.end; ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         if (soft_sun(frame, sun)) look_from_sun(graph, frame, sun, i, r);
-        fill_views(c, frame, weather, r);
+        fill_views(c, frame, sun, weather, r);
         // Other modes of fog know nothing of what falls.
         c.drawn_per_m = frame.fog.mode == FogMode::Metres ? plan.drawn_per_m : 0.0f;
         c.drawn_reach_m = plan.drawn_reach_m;

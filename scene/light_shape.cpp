@@ -46,6 +46,8 @@ const std::vector<LightProperty>& light_table()
         as_flag(row<&S::per_vertex>("per_vertex", "perVertex", 0.0f, 1.0f, "true",
                                     "of a point or a spot: its light is worked out at vertices and is cheap, without "
                                     "highlights, shadows and bumps of normal maps")),
+        row<&S::shadow_strength>("shadow_strength", "shadowStrength", 0.0f, 1.0f, "1.0",
+                                 "share of its light that its shadows take away: 1 all of it, 0 it throws none"),
     };
     return table;
 }
@@ -60,6 +62,7 @@ std::string shape_light(Light& light, const LightShape& shape)
     if (by_vertex) light.specular = kByVertex;
     else if (shape.specular) light.specular = *shape.specular;
     else if (light.specular == kByVertex) light.specular = 1.0f;
+    if (shape.shadow_strength) light.shadow_strength = *shape.shadow_strength;
     if (shape.mask_channel) {
         if (*shape.mask_channel != std::floor(*shape.mask_channel)) return "the channel of a shadow mask is a whole number";
         light.mask_channel = static_cast<int>(*shape.mask_channel);
@@ -106,6 +109,7 @@ LightShape shape_of_light(const Light& light)
     }
     if (light.specular == kByVertex) shape.per_vertex = 1.0f;
     else if (light.specular != 1.0f) shape.specular = light.specular;
+    if (light.shadow_strength != 1.0f) shape.shadow_strength = light.shadow_strength;
     if (light.mask_channel > 0) shape.mask_channel = static_cast<float>(light.mask_channel);
     return shape;
 }

@@ -20,6 +20,7 @@ struct LightShape {
     std::optional<float> specular = {};  ///< of its highlights
     std::optional<float> mask_channel = {};  ///< Light::mask_channel
     std::optional<float> per_vertex = {};  ///< 1: kByVertex, 0: by pixel
+    std::optional<float> shadow_strength = {};  ///< Light::shadow_strength
     bool both_sides = false;        ///< of a rectangle
 };
 

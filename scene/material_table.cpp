@@ -50,6 +50,8 @@ void add_gltf_rows(std::vector<Row>& t)
                                       "lamps light it by their size; false: as points, which is cheaper"));
     t.push_back(flag<&M::casts_shadows>("casts_shadows", {"", "extras", "castShadows"},
                                         "of sun, sky and lamps; what lets light through casts in part"));
+    t.push_back(flag<&M::receives_shadows>("receives_shadows", {"", "extras", "receiveShadows"},
+                                           "of sun and lamps; false: they light it as if nothing stood before them"));
     t.push_back(
         flag<&M::double_sided>("double_sided", {"", "", "doubleSided"}, "back faces are seen too"));
     t.push_back(flag<&M::cull_front>("cull_front", {"", "extras", "cullFront"},

@@ -81,7 +81,7 @@ void add_lens(Hasher& hasher, const gpu::Frame& frame)
 
 void add_sky(Hasher& hasher, const gpu::Sky& sky)
 {
-    static_assert(sizeof(gpu::Sky) == 16 * sizeof(float), "hash the new field too");
+    static_assert(sizeof(gpu::Sky) == 17 * sizeof(float), "hash the new field too");
     for (const float value :
          {sky.sun_elevation_rad, sky.sun_azimuth_rad, sky.sun_illuminance, sky.cloud_cover,
           sky.turbidity, sky.ground_albedo, sky.environment_scale, sky.environment_rotation_rad,
@@ -89,6 +89,7 @@ void add_sky(Hasher& hasher, const gpu::Sky& sky)
           sky.latitude_rad, sky.sidereal_rad, sky.north_rad}) {
         hasher.add(value);
     }
+    if (sky.sun_shadow_strength != 1.0f) hasher.add(sky.sun_shadow_strength);
     hasher.add(sky.analytic_sun);
     hasher.add(sky.land_as_ground);
 }
@@ -130,6 +131,7 @@ void add_light(Hasher& hasher, const scene::Light& light)
           light.radius_m, light.length_m, light.specular}) {
         hasher.add(value);
     }
+    if (light.shadow_strength != 1.0f) hasher.add(light.shadow_strength);
 }
 
 void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
@@ -384,6 +386,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     out.sky.environment_scale = narrow(here.sky.environment_scale);
     out.sky.environment_rotation_rad = narrow(here.sky.environment_rotation_degrees * kPi / 180.0);
     out.sky.analytic_sun = !here.sun.from_scene;
+    out.sky.sun_shadow_strength = narrow(value_at(here.sun.shadow_strength, time_s, 1.0));
     const NightSky night = night_sky_at(here.moon, here.sun, result.moment, sun, time_s);
     if (night.moon) {
         out.sky.moon_elevation_rad = narrow(night.moon->angles.elevation_rad);

@@ -88,6 +88,7 @@ struct ScenarioSun {
     std::optional<double> illuminance_lux;  ///< not given: as the scene's sun is where that shines, else 100000
     std::string cookie;             ///< a picture before it, relative to the scenario; empty: none
     KeyedNumber cookie_size_m;      ///< of the picture on a plane that faces the sun
+    KeyedNumber shadow_strength;    ///< 0..1; not given: 1
     bool yields = false;  ///< to the sun of keys: a preset named on the command line brings its own
 };
 

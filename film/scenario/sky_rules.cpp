@@ -44,6 +44,10 @@ std::vector<Rule> sky_rules()
           "the sky",
           true},
          [](Scenario& s, const TomlValue& v) { s.sun.cookie_size_m = v.keyed(0.01, 1e5); }},
+        {{"sun", "shadow_strength", "1.0",
+          "share of its light that shadows of sun and moon take away: 1 all of it, 0 there are none; 0 to 1",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.sun.shadow_strength = v.keyed(0.0, 1.0); }},
 
         {{"sky", "cloud_cover", "[[0.0, 0.9], [24.0, 0.4]]",
           "0 clear to 1 overcast; without it the weather decides", true},

@@ -35,6 +35,7 @@ struct Sky {
     float ground_albedo = 0.2f;      ///< of the land beyond the scene
     float environment_scale = 1.0f;  ///< multiplies the environment map
     float environment_rotation_rad = 0.0f;
+    float sun_shadow_strength = 1.0f;  ///< 0..1: share of the light that shadows of sun or moon take away
     bool analytic_sun = true;  ///< false: the scene's own directional lights replace the sun
     bool land_as_ground = true;  ///< the land that is seen goes on from the ground at the scene's rim, where patches light it
     float moon_elevation_rad = -1.0f;

@@ -64,7 +64,7 @@ struct FrameConstants {
     int cookie_texel;      // its first; none when negative
     float cookie_texel_m;
     vec4 cascade_end_m;    // view distance where cascade i ends
-    vec4 cascade_scale;    // texel size of cascade i relative to the first
+    vec4 cascade_scale;    // texel size of cascade i relative to the first; w: strength of the shadow
 
     vec3 moon_direction;  // towards it, unit
     vec3 moon_radiance;   // of its lit part, behind the air

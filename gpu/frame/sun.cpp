@@ -61,6 +61,7 @@ glm::vec3 sunlight_at_ground(const Sky& sky)
 Sun sun_of(const Sky& sky, const Light* scene_sun, bool has_environment)
 {
     Sun sun;
+    sun.shadow_strength = sky.sun_shadow_strength;
     if (sky.analytic_sun) {
         sun.direction = sun_direction(sky);
         sun.illuminance = sunlight_at_ground(sky) * cloud_shadow(sky.cloud_cover);
@@ -76,6 +77,7 @@ Sun sun_of(const Sky& sky, const Light* scene_sun, bool has_environment)
     } else if (scene_sun) {
         sun.direction = -scene_sun->direction;
         sun.illuminance = scene_sun->color * scene_sun->intensity;
+        sun.shadow_strength *= scene_sun->shadow_strength;
         sun.kind = LightFacts::Direct::Scene;
     }
     if (sun.illuminance == glm::vec3(0.0f)) sun.kind = LightFacts::Direct::None;

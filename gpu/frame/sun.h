@@ -12,6 +12,7 @@ struct Sun {
     glm::vec3 illuminance{0.0f};
     bool disc = false;
     bool analytic = false;  ///< of the analytic sky
+    float shadow_strength = 1.0f;
     LightFacts::Direct kind = LightFacts::Direct::None;
 };
 

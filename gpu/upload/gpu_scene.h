@@ -200,6 +200,7 @@ public:
     bool body_shares() const { return body_shares_; }
     /// Some material mixes two sets that water or light that passes treats differently.
     bool point_lamps() const { return point_lamps_; }  ///< some materials see lamps as points
+    bool unshadowed() const { return unshadowed_; }  ///< some materials receive no shadows
     bool two_sets() const { return two_sets_; }
     const OwnSurfaces& own_surfaces() const { return own_surfaces_; }
     const LightingModels& lighting_models() const { return lighting_models_; }
@@ -279,6 +280,7 @@ private:
     bool constant_weather_ = false;
     bool beads_ = false;
     bool point_lamps_ = false;
+    bool unshadowed_ = false;
     bool two_sets_ = false;
     bool layer_shares_ = false;
     bool body_shares_ = false;

@@ -228,7 +228,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                                                   c.second_water_color,
                                                   {c.roughness_factor,
                                                    source.decal.received ? 1.0f : 0.0f, c.dispersion,
-                                                   source.area_lights ? 0.0f : 1.0f}};
+                                                   static_cast<float>((source.area_lights ? 0u : LOOK_POINT_LAMPS) |
+                                                                      (source.receives_shadows ? 0u : LOOK_UNSHADOWED))}};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source) && !source.decal.on;
@@ -291,6 +292,7 @@ void GpuScene::sum_up_materials()
     decals_refused_ = !decals_.empty() && any([](const Material& m) { return !m.decal.received; });
     glows_ = glowing(glow_sources_, current_);
     point_lamps_ = any([](const Material& m) { return !m.area_lights; });
+    unshadowed_ = any([](const Material& m) { return !m.receives_shadows; });
     two_sets_ = any([](const Material& m) {
         return m.second.use == scene::SecondSetUse::Mix &&
                (m.second.own_water || m.diffuse_transmission > 0.0f || m.translucency > 0.0f || scatters(m));

@@ -225,8 +225,10 @@
 //   0  water_color
 //   1  snow_opacity, transmission_factor, ior, thickness_factor
 //   2  second_water_color; that of the first set again where it has none of its own
-//   3  roughness_factor, receives_decals, dispersion, 1: lamps are points
+//   3  roughness_factor, receives_decals, dispersion, LOOK_.. of light
 #define MATERIAL_LOOK_TEXELS 4
+#define LOOK_POINT_LAMPS 1u
+#define LOOK_UNSHADOWED 2u
 
 // What an instance has instead of its materials' own, by Draw's number, from 1; negative: their own.
 //   0  base colour, metallic

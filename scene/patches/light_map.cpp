@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "formulas/light/weak_shadow.h"
 #include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/sampling.h"
 #include "scene/patches/lamps.h"
@@ -116,7 +117,8 @@ public:
         gathered.lux = sum / static_cast<float>(found);
         for (const Light& lamp : light_.lamps) {
             const glm::vec3 lux = lamp_irradiance(lamp, light_.profiles, x, n);
-            if (lux.x + lux.y + lux.z > 0.0f && lamp_seen(tracer_, lamp, from)) gathered.lux += lux;
+            if (!(lux.x + lux.y + lux.z > 0.0f)) continue;
+            gathered.lux += lux * shared::weak_shadow(lamp_seen(tracer_, lamp, from) ? 1.0f : 0.0f, lamp.shadow_strength);
         }
         return gathered;
     }

@@ -74,6 +74,10 @@ TEST(LampOverrides, RefuseShapesThatCannotBe)
     EXPECT_THAT(said("[lamps.\"lantern a\"]\nlength_m = 2\n"), HasSubstr("needs a radius"));
     EXPECT_THAT(said("[lamps.\"spot\"]\nradius_m = -1\n"), HasSubstr("0 to 40"));
     EXPECT_THAT(said("[lamps.\"spot\"]\nradius = 1\n"), HasSubstr("radius_m"));
+    for (const std::string wrong : {"1.5", "-0.1", "nan"}) {
+        EXPECT_THAT(said("[lamps.\"spot\"]\nshadow_strength = " + wrong + "\n"), HasSubstr("0 to 1")) << wrong;
+        EXPECT_THAT(said("[sun]\nshadow_strength = " + wrong + "\n"), HasSubstr("0 to 1")) << wrong;
+    }
 }
 
 // Later tables win, a size and the share of highlights do not bring a lamp back to pixels.
@@ -134,7 +138,7 @@ TEST(LampShapes, GoThroughGltf)
     const Scenario scenario = parse_scenario(
         "[lamps.\"lantern a\"]\nradius_m = 0.2\nlength_m = 1\nspecular = 0.5\n"
         "[lamps.\"lantern b\"]\nwidth_m = 2\nheight_m = 0.5\nboth_sides = true\n"
-        "[lamps.\"spot\"]\nradius_m = 0.3\n",
+        "[lamps.\"spot\"]\nradius_m = 0.3\nshadow_strength = 0.25\n",
         "s.toml");
     scene.lights[1].direction = {1, 0, 0};
     scene.lights[1].up = {0, 0, 1};
@@ -153,6 +157,8 @@ TEST(LampShapes, GoThroughGltf)
                          glm::vec3(1, 0, 0)),
                 1.0f, 1e-5f);
     EXPECT_FLOAT_EQ(read.lights[2].radius_m, 0.3f);
+    EXPECT_FLOAT_EQ(read.lights[2].shadow_strength, 0.25f);
+    EXPECT_EQ(read.lights[0].shadow_strength, 1.0f);
     EXPECT_TRUE(read.warnings.empty());
 }
 

@@ -163,6 +163,7 @@ class MappedShadow : public OwnLightMap {
 protected:
     int lamp_shadows = 0;
     int lamp_channel = 0;
+    float strength = 1.0f;
     float lit(const Material& m, const Texture& map, float height_m, bool sun, bool lamp)
     {
         renderer->load(scene_of({quad({-40, 0, 40}, {80, 0, 0}, {0, 0, -80})}, {m}), {map});
@@ -174,12 +175,14 @@ protected:
         frame.settings.lamp_shadows = lamp_shadows;
         frame.sky.sun_elevation_rad = 1.2f;
         if (!sun) frame.sky.sun_illuminance = 0.0f;
+        frame.sky.sun_shadow_strength = strength;
         if (lamp) {
             Light bulb;
             bulb.kind = LightKind::Point;
             bulb.position_m = {1.0f, 4.0f, 0.0f};
             bulb.intensity = 4.0e5f;
             bulb.mask_channel = lamp_channel;
+            bulb.shadow_strength = strength;
             frame.extra_lights = {bulb};
         }
         return pixel(renderer->render(frame), 8, 8).g;
@@ -243,6 +246,29 @@ TEST_F(MappedShadow, AMaskTakesLampsOverByTheirChannels)
     EXPECT_NEAR(lit(m, map_of({{0, 0, 0, 255}, {51, 51, 51, 51}}), 80.0f, false, true),
                 lit(material(""), map_of({{0, 0, 0, 255}, {0, 0, 0, 255}}), 80.0f, false, true), 1.0f)
         << "a lamp without a channel";
+}
+
+// A fifth of them is seen, by the mask; shadows of half the strength leave six tenths.
+TEST_F(MappedShadow, OfWeakShadowsAMaskTakesItsShare)
+{
+    const Texture map = map_of({{0, 0, 0, 255}, {51, 51, 51, 51}});
+    Material m = material(example("shadow_mask.glsl"));
+    lamp_channel = 2;
+    for (const int maps : {0, 1}) {
+        lamp_shadows = maps;
+        for (const bool sun : {true, false}) {
+            strength = 0.0f;
+            const float all = lit(m, map, 80.0f, sun, !sun);
+            ASSERT_GT(all, 1000.0f);
+            strength = 0.5f;
+            EXPECT_NEAR(lit(m, map, 80.0f, sun, !sun), 0.6f * all, 0.01f * all) << maps << sun;
+            strength = 1.0f;
+            EXPECT_NEAR(lit(m, map, 80.0f, sun, !sun), 0.2f * all, 0.01f * all) << maps << sun;
+            m.receives_shadows = false;
+            EXPECT_NEAR(lit(m, map, 80.0f, sun, !sun), all, 0.01f * all) << maps << sun;
+            m.receives_shadows = true;
+        }
+    }
 }
 
 TEST(LightMapSides, AreSquareToEachOtherAndEvenLightIsLight)

@@ -84,6 +84,7 @@ struct LitPoint {
     WaterFilm film;    // of rain; the pass adds it
     float sunlit;      // 0 in the shadow of the sun .. 1
     bool point_lamps;  // sizes of lamps are not seen
+    bool unshadowed;   // nor their shadows, and the sun's
     ShapedLobes shaped;  // set where the picture has lamps that have a size
     vec3 mesh_normal;    // of the triangle; set where shadows are asked
 };

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/spherical_harmonics.h"
+#include "formulas/light/weak_shadow.h"
 #include "formulas/weather/falling.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/passes/falling/falling_io.h"
@@ -43,7 +44,7 @@ float sun_seen(vec3 p, float view_m)
     while (cascade < SHADOW_CASCADES - 1 && view_m > frame.cascade_end_m[cascade]) ++cascade;
     const vec4 map = frame.arrays.shadow_from_world[cascade] * vec4(p, 1.0);
     if (any(greaterThan(abs(map.xyz - 0.5), vec3(0.5)))) return 1.0;
-    return texture(shadow_map, vec4(map.xy, float(cascade), map.z));
+    return weak_shadow(texture(shadow_map, vec4(map.xy, float(cascade), map.z)), frame.cascade_scale.w);
 }
 
 void main()

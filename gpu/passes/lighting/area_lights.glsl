@@ -21,6 +21,12 @@ vec3 skin_lookup(float nl, float curvature)
     return mix(a, b, part.y);
 }
 
+// What of sun or a lamp is seen, of materials that receive no shadows all.
+float received(float visible, LitPoint p)
+{
+    return (WAYS & LIGHTS_UNSHADOWED) != 0u && p.unshadowed ? 1.0 : visible;
+}
+
 // What of a shadow falls on the light that skin carries past its terminator: none. All that is turned away
 // lies in its own shadow, and would end where the light begins to bleed.
 float shadow_on_model(LitPoint p, float nl, float visible)

@@ -10,13 +10,24 @@ float lamp_mask_share = 0.0;
 struct LampShadow {
     float number;   // of its shadow map; below 0: none
     float channel;  // of masks, from 1; 0: none
+    float strength;
 };
 
 LampShadow shadow_of(LightRow light)
 {
     float channel = 0.0;
     if (MASKED) channel = floor((light.across.w + 1.0) / LIGHT_MASK_STEP);
-    return LampShadow(light.across.w - LIGHT_MASK_STEP * channel, channel);
+    const float code = light.across.w - LIGHT_MASK_STEP * channel;
+    if ((WAYS & LIGHTS_WEAK_SHADOWS) == 0u) return LampShadow(code, channel, 1.0);
+    const float number = floor(code);
+    return LampShadow(number, channel, 1.0 - 2.0 * (code - number));
+}
+
+// Of what is seen of a lamp through its shadows, whatever tells them.
+float received_from(float visible, LampShadow shadow, LitPoint p)
+{
+    if ((WAYS & LIGHTS_WEAK_SHADOWS) != 0u) visible = weak_shadow(visible, shadow.strength);
+    return received(visible, p);
 }
 
 // What is seen of a lamp. Without a shadow in real time the mask's word counts everywhere.
@@ -48,6 +59,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
         if (number >= 0.0) visible = lamp_visibility(number, from, light_near_m(light), p.position, p.mesh_normal, texel);
     }
     if (MASKED) visible = masked(visible, shadow);
+    visible = received_from(visible, shadow, p);
     lit = lit && (visible > 0.0 || BLEEDS);
     if (SKIPS && !lit) return vec3(0.0);
     if (WAYS != 0u) {
@@ -142,7 +154,7 @@ void add_all_lights(inout vec3 radiance, LitPoint p, bool there, ivec2 texel)
     for (uint i = 0u; i < ((WAYS & LIGHTS_FAR) != 0u ? frame.directional_count : 0u); ++i) {
         const LightRow light = light_row(int(i));
         float visible = 1.0;
-        if (MASKED) visible = masked(visible, shadow_of(light));
+        if (MASKED) visible = received_from(masked(visible, shadow_of(light)), shadow_of(light), p);
         radiance += shadowed_light(p, -light.axis.xyz, visible) * light.color.rgb;
     }
     LitGroup group;

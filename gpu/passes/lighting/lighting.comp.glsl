@@ -15,6 +15,7 @@
 #include "formulas/light/occlusion_points.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/sun_cookie.h"
+#include "formulas/light/weak_shadow.h"
 #include "formulas/weather/run_off.h"
 #include "formulas/weather/soaked_walls.h"
 #include "formulas/light/fog.h"
@@ -246,8 +247,11 @@ void main()
         p.curvature = 0.0;
         p.hair_shift = 0.0;
         p.sunlit = 1.0;
-        p.point_lamps = (WAYS & LIGHTS_BY_MATERIAL) != 0u &&
-                        texelFetch(material_looks, int(g.material) * MATERIAL_LOOK_TEXELS + 3).w > 0.5;
+        uint ways = 0u;
+        if ((WAYS & (LIGHTS_BY_MATERIAL | LIGHTS_UNSHADOWED)) != 0u)
+            ways = uint(texelFetch(material_looks, int(g.material) * MATERIAL_LOOK_TEXELS + 3).w);
+        p.point_lamps = (ways & LOOK_POINT_LAMPS) != 0u;
+        p.unshadowed = (ways & LOOK_UNSHADOWED) != 0u;
         p.film = film;
         p.second = LobeBeside(Lobe(n, v, vec3(0.0), vec3(0.0), 1.0, 1.0, 1.0, 0.0), 1.0, 0.0);
         if (TWO_LOBES && beside.share > 0.0) {
@@ -323,6 +327,8 @@ void main()
             float visible = 1.0;
             if (SHADOWS != 0u) visible = sun_visibility(position, p.mesh_normal, view_m, texel);
             if (BAKED != 0u) visible = mix(visible, g.baked_shadow.visible, g.baked_shadow.share);
+            if ((WAYS & LIGHTS_WEAK_SUN_SHADOW) != 0u) visible = weak_shadow(visible, frame.cascade_scale.w);
+            visible = received(visible, p);
             p.sunlit = visible;
             sunny = visible > 0.0 || BLEEDS;
             if (sunny) {

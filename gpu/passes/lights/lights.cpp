@@ -104,13 +104,13 @@ void check_light_crowd(const LightTable& table, const FrameSettings& settings,
 namespace {
 
 // Numbers of the lamps that give most light at the eye, brightest first.
-std::vector<std::size_t> brightest(const std::vector<const Light*>& lights, int most,
-                                   const glm::vec3& eye_m)
+template <typename Wanted>
+std::vector<std::size_t> brightest(const std::vector<const Light*>& lights, int most, const glm::vec3& eye_m, Wanted&& wanted)
 {
     std::vector<std::pair<float, std::size_t>> ranked;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const Light& light = *lights[i];
-        if (light.kind == LightKind::Directional) continue;
+        if (light.kind == LightKind::Directional || !wanted(light)) continue;
         const float reach = light_radius_m(light);
         const float strength = light.range_m > 0.0f ? light.intensity : kFaintestLux * reach * reach;
         const glm::vec3 away = light.position_m - eye_m;
@@ -186,16 +186,14 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         return static_cast<std::size_t>(light - lights.data());
     };
     // Who owns one does not depend on what is seen: it would come and go. Lamps by vertex have none.
-    std::vector<const Light*> throwing;
-    std::copy_if(ordered.begin(), ordered.end(), std::back_inserter(throwing),
-                 [](const Light* light) { return !scene::lit_by_vertex(*light); });
-    for (const std::size_t k : brightest(throwing, params.shadows, params.eye_m)) {
-        const std::size_t i = number_of(throwing[k]);
+    const auto throws_shadows = [](const Light& light) { return light.shadow_strength > 0.0f && !scene::lit_by_vertex(light); };
+    const auto all = [](const Light&) { return true; };
+    for (const std::size_t i : brightest(ordered, params.shadows, params.eye_m, throws_shadows)) {
         if (!is_seen(lights[i])) continue;
         shadow[i] = static_cast<int>(table.shadowed.size());
         table.shadowed.push_back(lights[i]);
     }
-    for (const std::size_t i : brightest(ordered, kBrightestLamps, params.eye_m))
+    for (const std::size_t i : brightest(ordered, kBrightestLamps, params.eye_m, all))
         table.brightest.push_back(lights[i]);
     const auto kind_of = [&](const Light* light) {
         if (light->kind == LightKind::Directional) return 0;
@@ -253,6 +251,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
             ways |= LIGHTS_FILL;
         if (spot) ways |= LIGHTS_CONE;
         if (light->mask_channel > 0) ways |= LIGHTS_MASKED;
+        if (light->shadow_strength != 1.0f && !by_vertex) ways |= LIGHTS_WEAK_SHADOWS;
         if (light->profile >= 0) ways |= light->in_lantern ? LIGHTS_LANTERN : LIGHTS_PROFILE;
         const float kind = spot                ? std::cos(light->outer_cone_rad)
                            : !rectangle        ? LIGHT_POINT
@@ -266,7 +265,8 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                             : light->length_m > 0.0f ? light->up
                                                      : up_of(*light),
                             static_cast<float>(shadow[number_of(light)]) +
-                                LIGHT_MASK_STEP * static_cast<float>(light->mask_channel));
+                                LIGHT_MASK_STEP * static_cast<float>(light->mask_channel) +
+                                0.5f * (1.0f - light->shadow_strength));
         texels.emplace_back(!sized ? 0.0f : rectangle ? 1.0f : light->radius_m,
                             rectangle ? windowed : 0.5f * light->length_m, light->glows ? static_cast<float>(LIGHT_GLOWS) : light->specular,
                             static_cast<float>(light->profile) + (light->in_lantern ? 0.5f : 0.0f));

@@ -8,7 +8,8 @@
 //       cone, or one of the kinds below
 //   2   axis (rectangle: half of an edge); cosine of the inner cone
 //   3   of a rectangle: half of the other edge, so that cross(2, 3) is its front; else across the axis;
-//       the number of its shadow, or -1, and LIGHT_MASK_STEP times its channel of shadow masks, if it has one
+//       the number of its shadow, or -1, and LIGHT_MASK_STEP times its channel of shadow masks, if it has one, and
+//       half of what its shadows leave of its light, with LIGHTS_WEAK_SHADOWS
 //   4   of lamps that have a size (with LIGHTS_... below): radius, 0 none, of a rectangle 1; half the
 //       length of a tube, of a rectangle 0..1 how far its window fades it towards its reach; share of highlights; the number of its profile, or -1,
 //       and a half more of a lamp in a lantern
@@ -42,6 +43,9 @@
 #define LIGHTS_MASKED 65536u  // of the table: a channel of shadow masks
 
 #define LIGHTS_LANTERN 131072u  // of the table: a lamp in a lantern
+#define LIGHTS_WEAK_SHADOWS 262144u  // of the table: a shadow that does not take all of its lamp's light
+#define LIGHTS_WEAK_SUN_SHADOW 524288u  // of the sun: the same
+#define LIGHTS_UNSHADOWED 1048576u  // of the scene: some materials receive no shadows
 #define LIGHTS_FEW 128u
 
 // So many at once, where a subgroup has as many invocations.
