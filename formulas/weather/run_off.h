@@ -1,5 +1,5 @@
 // Water that runs down walls in heavy rain: rivulets some fingers apart that wander, join into sheets, and carry waves down with them.
-// Spacing and slopes are ours, by eye; the speed is that of films of half a millimetre on stone (Nusselt 1916 has 0.8 m/s on glass).
+// Spacing, slopes and speed are ours, by eye: a smooth film of half a millimetre would run down by 0.8 m/s (Nusselt 1916), walls are rough.
 //
 // One text for C++ and GLSL.
 #ifndef PETRICHOR_FORMULAS_WEATHER_RUN_OFF_H
