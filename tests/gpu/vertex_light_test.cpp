@@ -297,8 +297,8 @@ TEST_F(VertexLightTest, LampsOfAFrameLightPixels)
     EXPECT_EQ(picture(scene, {}, frame).beauty, pixels.beauty);
 }
 
-// Printed: a town of lamps by pixel and by vertex.
-TEST_F(VertexLightTest, CostsLessWhereLampsAreMany)
+// A town of lamps by pixel and by vertex; what they cost is printed.
+TEST_F(VertexLightTest, AThousandLampsLookAlike)
 {
     Scene scene;
     scene.materials = {matt(glm::vec3(0.5f))};
