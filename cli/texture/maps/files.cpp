@@ -135,7 +135,7 @@ std::string level_name(const std::string& pattern, int level)
     }
     if (percent == std::string::npos || end >= pattern.size() || pattern[end] != 'd' || width > 9 ||
         pattern.find('%', end) != std::string::npos) {
-        throw Error("output: '" + pattern + "' has no place for the number of the level",
+        throw Error("output: '" + pattern + "' has no %d, where files of one command differ (by level, map or channel)",
                     "Write one %d into the name, such as 'out_%d.png'.");
     }
     std::string number = std::to_string(level);
