@@ -10,10 +10,12 @@
 namespace petrichor::film {
 namespace {
 
-bool wants_places(const ScenarioGround& ground, const WeatherSource& weather)
+// Keys have places where light is of patches, which are traced then anyway.
+bool wants_places(const Sequence& sequence, const WeatherSource& weather)
 {
-    if (weather.table) return ground.patches.value_or(true);
-    return weather.script && ground.patches.value_or(false);
+    const std::optional<bool> asked = sequence.scenario.ground.patches;
+    if (weather.table) return asked.value_or(true);
+    return weather.script && asked.value_or(wants_patches(sequence));
 }
 
 bool wants_hollows(const Sequence& sequence)
@@ -52,7 +54,7 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
 {
     const auto first = std::find_if(sequence.variants.begin(), sequence.variants.end(),
                                     [&](const SequenceVariant& v) {
-                                        return wants_places(sequence.scenario.ground, v.weather);
+                                        return wants_places(sequence, v.weather);
                                     });
     if (first == sequence.variants.end()) {
         if (auto note = note_of_pictures(sequence.scenario.output)) notes.push_back(std::move(*note));
@@ -90,7 +92,7 @@ void ScenePlaces::place(const Sequence& sequence, const Job& job, SequenceFrame&
     if (hollows_) frame.frame.place = hollows_->at(frame.frame.weather.flood_puddles);
     if (!sites_) return;
     const SequenceVariant& variant = variant_of(sequence, job);
-    if (!wants_places(sequence.scenario.ground, variant.weather)) return;
+    if (!wants_places(sequence, variant.weather)) return;
     if (!variant.weather.table) {
         auto keyed = keyed_.find(job.variant);
         if (keyed == keyed_.end()) {

@@ -15,8 +15,8 @@
 namespace petrichor::film {
 
 /// The weather of the places of a sequence's scene: of every variant that runs a weather file under
-/// the physical model, unless [ground] patches is off, and of keys of the artist model where it is
-/// on.
+/// the physical model and of keys of the artist model, unless [ground] patches is off. Keys of scenes
+/// whose light is not of patches have no places unless that is on.
 class ScenePlaces {
 public:
     /// Cuts the scene into patches, or finds them in the cache; the scene must still hold its

@@ -40,11 +40,7 @@ WeatherSource from_script(WeatherScript script, std::string name, double end_s)
     source.at = [shared, weather, ice](double time_s) {
         weather::Moment moment =
             weather::artist_moment(*weather, shared->timeline, shared->sky, time_s);
-        const ArtistIce frozen = ice->at(time_s);
-        shared::WeatherMoment& m = moment.values;
-        const auto narrow = [](double value) { return static_cast<float>(value); };
-        m.flood_cracks = std::min(m.flood_cracks + narrow(frozen.cracks), 1.0f);
-        m.flood_puddles = std::min(m.flood_puddles + narrow(frozen.puddles), 1.0f);
+        moment.values = with_ice(moment.values, ice->at(time_s));
         if (!shared->sun_elevation_deg.empty()) {
             const auto degrees = [&](const weather::Channel& channel, double otherwise) {
                 return channel.empty() ? otherwise : weather::value_at(channel, time_s * 1e6);
@@ -53,7 +49,6 @@ WeatherSource from_script(WeatherScript script, std::string name, double end_s)
             moment.sun = weather::SunAngles{degrees(shared->sun_elevation_deg, 0.0) * radians,
                                             degrees(shared->sun_azimuth_deg, 140.0) * radians};
         }
-        m.snow_amount = std::max(m.snow_amount - narrow(frozen.not_snow) * m.water_to_snow, 0.0f);
         return moment;
     };
     return source;

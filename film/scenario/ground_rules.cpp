@@ -9,7 +9,8 @@ std::vector<Rule> ground_rules()
     return {
         {{"ground", "patches", "true",
           "weather on every patch of the scene, with its own sun, sky, rain and wind; false: the "
-          "same everywhere. Without this key true for weather files"},
+          "same everywhere. Without this key true for weather files, and for presets and keys "
+          "where [render] indirect is light of patches"},
          [](Scenario& s, const TomlValue& v) { s.ground.patches = v.boolean(); }},
         {{"ground", "materials", "[\"street*\"]",
           "materials that are ground wherever they lie; without it what lies lowest is"},

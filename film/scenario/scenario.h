@@ -334,7 +334,7 @@ struct ScenarioTrack {
 
 /// [ground]: the weather of the scene's places, and what its water does.
 struct ScenarioGround {
-    /// Weather on every patch of the scene; not given: of weather files under the physical model.
+    /// Weather on every patch of the scene; not given: of weather files, and of keys where light is of patches.
     std::optional<bool> patches;
     std::vector<std::string> ground, not_ground;  ///< globs of materials
     std::vector<glm::dvec3> drains;               ///< x, z and radius, m

@@ -40,6 +40,16 @@ void thaw(Store& store, double share, double dried)
 
 }  // namespace
 
+shared::WeatherMoment with_ice(shared::WeatherMoment moment, const ArtistIce& ice)
+{
+    const auto narrow = [](double value) { return static_cast<float>(value); };
+    moment.flood_cracks = std::min(moment.flood_cracks + narrow(ice.cracks), 1.0f);
+    moment.flood_puddles = std::min(moment.flood_puddles + narrow(ice.puddles), 1.0f);
+    moment.snow_amount =
+        std::max(moment.snow_amount - narrow(ice.not_snow) * moment.water_to_snow, 0.0f);
+    return moment;
+}
+
 ArtistIceTimeline::ArtistIceTimeline(const weather::ArtistTimeline& weather)
     : start_s_(weather::to_seconds(weather.start()))
 {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "formulas/weather/moment.h"
 #include "weather/models/artist/exact.h"
 
 namespace petrichor::film {
@@ -13,6 +14,9 @@ struct ArtistIce {
     double cracks = 0.0, puddles = 0.0;  ///< on top of the model's: ice, and what has melted of it
     double not_snow = 0.0;               ///< of the model's snow: was water, and has not fallen
 };
+
+/// A moment of the model with that ice in its cracks and puddles, and less snow.
+shared::WeatherMoment with_ice(shared::WeatherMoment moment, const ArtistIce& ice);
 
 /// The ice of a script over time: solved once, in steps of a sixteenth of a second and more for films
 /// longer than two minutes, from the start of the script; linear between.

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
+#include "film/weather/artist_ice.h"
 #include "formulas/weather/falls_here.h"
 #include "scene/basins/water.h"
 #include "weather/moment.h"
@@ -34,6 +36,44 @@ weather::PlaceFactors factors_of(const Class& c)
 {
     const double root = c[0] / kRainSteps;
     return {root * root, c[1] / kSteps, c[2] / kSteps, c[3] / kSteps};
+}
+
+constexpr int kTimes = 8;               // of a script, at which its wind is asked
+constexpr double kDryWeight = 1e-3;     // of a time at which nothing falls: counts where all are dry
+
+// The winds of a script, those in which most falls first in weight.
+std::vector<weather::WeightedClimate> climates_of(const WeatherScript& script, double latitude_deg, double north_deg)
+{
+    std::vector<weather::WeightedClimate> all;
+    double sum = 0.0;
+    for (int i = 0; i < kTimes; ++i) {
+        const double us = 1e6 * script.duration_s * (i + 0.5) / kTimes;
+        const double weight = std::max(weather::value_at(script.timeline.rainfall, us), kDryWeight);
+        weather::PlaceClimate c;
+        c.latitude_deg = latitude_deg;
+        c.north_deg = north_deg;
+        c.wind_m_s = weather::value_at(script.sky.wind_m_s, us);
+        c.wind_from_deg = weather::value_at(script.sky.wind_from_deg, us);
+        sum += weight;
+        const auto same = std::find_if(all.begin(), all.end(), [&](const weather::WeightedClimate& one) {
+            return one.climate.wind_m_s == c.wind_m_s && one.climate.wind_from_deg == c.wind_from_deg;
+        });
+        if (same == all.end()) {
+            all.push_back({c, weight});
+        } else {
+            same->weight += weight;
+        }
+    }
+    for (weather::WeightedClimate& one : all) one.weight /= sum;
+    return all;
+}
+
+// Hoar is of the air: it grows where heat is lost to the sky overhead, as at pixels without patches.
+double hoar_share(const weather::WeatherPatch& patch)
+{
+    const double up = std::clamp(patch.normal.y, 0.0, 1.0);
+    const double facing = std::clamp(0.5 + 0.6 * patch.normal.y, 0.0, 1.0);
+    return weather::sky_shares(patch.visible, patch.normal).zenith * up * facing;
 }
 
 struct Scaling {
@@ -111,12 +151,13 @@ struct ArtistPlaces::Impl {
     struct Solved {
         WeatherScript script;
         weather::ArtistTimeline weather;
+        std::optional<ArtistIceTimeline> ice;  // where it freezes
     };
     std::shared_ptr<const gpu::PlaceShape> shape;
     scene::Basins basins;
     std::vector<Solved> solved;
     std::vector<std::uint32_t> solved_of;  // of a patch
-    std::vector<float> rain, sky;          // of a patch
+    std::vector<float> rain, hoar;         // of a patch: shares of what the open has
     std::vector<std::uint32_t> material;   // of a patch
     Solved open;
 };
@@ -124,31 +165,27 @@ struct ArtistPlaces::Impl {
 ArtistPlaces::ArtistPlaces(const SceneSites& sites, const WeatherScript& script,
                            double latitude_deg, double north_deg)
 {
-    weather::PlaceClimate climate;
-    climate.latitude_deg = latitude_deg;
-    climate.north_deg = north_deg;
-    const double middle_us = 0.5e6 * script.duration_s;
-    climate.wind_m_s = weather::value_at(script.sky.wind_m_s, middle_us);
-    climate.wind_from_deg = weather::value_at(script.sky.wind_from_deg, middle_us);
-    auto impl = std::make_shared<Impl>(
-        Impl{sites.shape, sites.ground.basins, {}, {}, {}, {}, sites.material,
-             {script, script.solve()}});
+    const std::vector<weather::WeightedClimate> climates = climates_of(script, latitude_deg, north_deg);
+    const weather::SunPath path = weather::sun_path(climates.front().climate);
+    const bool freezes = weather::range_of(script.timeline.temperature_c).low <= 0.0;
+    const auto solved = [freezes](WeatherScript here) {
+        weather::ArtistTimeline weather = here.solve();
+        std::optional<ArtistIceTimeline> ice;
+        if (freezes) ice.emplace(weather);
+        return Impl::Solved{std::move(here), std::move(weather), std::move(ice)};
+    };
+    auto impl = std::make_shared<Impl>(Impl{
+        sites.shape, sites.ground.basins, {}, {}, {}, {}, sites.material, solved(script)});
     std::map<Class, std::uint32_t> known;
     for (const weather::WeatherPatch& patch : sites.set.patches) {
-        const auto factors = weather::place_factors(patch, sites.set.kinds[patch.kind], climate);
+        const auto factors = weather::place_factors(patch, sites.set.kinds[patch.kind], climates, path);
         const Class c = class_of(factors);
         const auto [place, is_new] =
             known.try_emplace(c, static_cast<std::uint32_t>(impl->solved.size()));
-        if (is_new) {
-            WeatherScript here = script_at_place(script, factors_of(c));
-            weather::ArtistTimeline weather = here.solve();
-            impl->solved.push_back({std::move(here), std::move(weather)});
-        }
+        if (is_new) impl->solved.push_back(solved(script_at_place(script, factors_of(c))));
         impl->solved_of.push_back(place->second);
         impl->rain.push_back(static_cast<float>(factors.rain));
-        impl->sky.push_back(static_cast<float>(
-            patch.sky_share < 0.0 ? weather::sky_shares(patch.visible, patch.normal).sky
-                                  : patch.sky_share));
+        impl->hoar.push_back(static_cast<float>(hoar_share(patch)));
     }
     impl_ = std::move(impl);
 }
@@ -163,7 +200,9 @@ std::shared_ptr<const gpu::PlaceWeather> ArtistPlaces::at(double time_s) const
     const Impl& m = *impl_;
     std::vector<shared::WeatherMoment> moments;
     const auto moment_of = [&](const Impl::Solved& s) {
-        return weather::artist_moment(s.weather, s.script.timeline, s.script.sky, time_s).values;
+        const auto moment =
+            weather::artist_moment(s.weather, s.script.timeline, s.script.sky, time_s).values;
+        return s.ice ? with_ice(moment, s.ice->at(time_s)) : moment;
     };
     for (const Impl::Solved& s : m.solved) moments.push_back(moment_of(s));
     const auto place = std::make_shared<gpu::PlaceWeather>();
@@ -176,7 +215,7 @@ std::shared_ptr<const gpu::PlaceWeather> ArtistPlaces::at(double time_s) const
         const auto influence = static_cast<float>(params.wetness_influence_on_albedo);
         const float film = influence > 0.0f ? std::min(1.0f, here.film_albedo / influence) : 0.0f;
         place->states.emplace_back(film, here.flood_cracks, here.flood_puddles, here.snow_amount);
-        place->states.emplace_back(here.frost * m.sky[i], static_cast<float>(frozen), m.rain[i],
+        place->states.emplace_back(here.frost * m.hoar[i], static_cast<float>(frozen), m.rain[i],
                                    0.0f);
         place->states.emplace_back(here.film_mm, here.puddle_depth_m, here.snow_depth_m,
                                    here.ice_kg_m2);

@@ -17,7 +17,7 @@ WeatherScript script_at_place(const WeatherScript& script, const weather::PlaceF
 /// (steps of a quarter, or finer) share a solved script. Copies share their scripts.
 class ArtistPlaces {
 public:
-    /// Factors are those of the script's wind in the middle of its duration.
+    /// Factors are means over the script, by how much falls at its times: of its winds.
     ArtistPlaces(const SceneSites& sites, const WeatherScript& script, double latitude_deg,
                  double north_deg);
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "base/error.h"
@@ -102,6 +103,26 @@ TEST(Job, PicturesOfPlacesWithoutPlacesAreNamed)
                 testing::Contains(testing::AllOf(testing::StartsWith("ice, rain_exposure: "),
                                                  testing::HasSubstr("[ground] patches = true"))));
     EXPECT_THAT(notes_of("[\"depth\"]"), testing::IsEmpty());
+}
+
+// Keys and presets have the weather of places by default, where light is of patches.
+TEST(Job, APresetHasPlacesUnlessTheyAreOff)
+{
+    const auto asks_for_patches = [](const std::string& text) {
+        const Sequence sequence = make_sequence(parse_scenario(text, "s.toml"));
+        std::vector<std::string> notes;
+        const ScenePlaces places(sequence, 1, {}, {}, notes);
+        return std::find(notes.begin(), notes.end(),
+                         "no surface stops light: the weather is the same everywhere") != notes.end();
+    };
+    const std::string preset = "[weather]\npreset = \"storm\"\n";
+    EXPECT_TRUE(asks_for_patches(preset));
+    EXPECT_TRUE(asks_for_patches("[weather]\nkeys = [{ time_s = 0, temperature_c = 9, rainfall = 0.9 }]\n"));
+    EXPECT_FALSE(asks_for_patches(preset + "[ground]\npatches = false\n"));
+    const std::string ambient = "[render]\nindirect = \"ambient\"\n";
+    EXPECT_FALSE(asks_for_patches(preset + ambient)) << "nothing else would trace the scene";
+    EXPECT_TRUE(asks_for_patches(preset + ambient + "[ground]\npatches = true\n"));
+    EXPECT_FALSE(asks_for_patches("")) << "no weather";
 }
 
 TEST(Job, PartsNeedGoodNames)

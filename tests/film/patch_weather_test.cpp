@@ -517,6 +517,16 @@ TEST(ArtistPlaces, KeysKnowShelterAndHollows)
     for (std::uint32_t i = 1; i < wet->levels_m.size(); ++i)
         stands = stands || wet->levels_m[i] > place.sites.ground.basins.hollow[i].pit_m + 0.003f;
     EXPECT_TRUE(stands);
+    // It is the wind of the rain that counts, not that of the middle: here it blows from the roof's side.
+    const WeatherScript turning = read_weather_script(
+        "[weather]\ninterpolation = \"hold\"\nkeys = [{ time_s = 0, temperature_c = 12, rainfall = 0.8, "
+        "wind_m_s = 9, wind_from_deg = 90 }, { time_s = 8, rainfall = 0, wind_from_deg = 270 }, { time_s = 20, rainfall = 0 }]",
+        "test");
+    const auto wall = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.x > 0.9f && p.y > 1.5f && p.y < 2.4f && std::abs(p.z) < 2.0f;
+    });
+    const auto driven = ArtistPlaces(place.sites, turning, 50.0, 0.0).at(8.0);
+    EXPECT_GT(driven->states[wall * PLACE_STATE_TEXELS + 1].z, 0.3f);
     // In the open it is the script itself.
     const auto alone =
         weather::artist_moment(script.solve(), script.timeline, script.sky, 10.0).values;
@@ -537,6 +547,36 @@ TEST(ArtistPlaces, KeysKnowShelterAndHollows)
     const WeatherScript dry = script_at_place(script, {0.0, 1.0, 1.0, 1.0});
     EXPECT_EQ(weather::artist_moment(dry.solve(), dry.timeline, dry.sky, 10.0).values.film_albedo,
               0.0f);
+}
+
+// Puddles that freeze stay as ice, as without places; hoar keeps off walls and from below roofs.
+TEST(ArtistPlaces, KeepIceAndHoarWhereTheyAre)
+{
+    const Place place;
+    const WeatherScript script = read_weather_script(
+        "[weather]\nkeys = [{ time_s = 0, temperature_c = 8, rainfall = 0.9 }, { time_s = 14, rainfall = 0.9 }, "
+        "{ time_s = 15, temperature_c = 8, rainfall = 0 }, { time_s = 17, temperature_c = -14, rainfall = 0 }, "
+        "{ time_s = 40, temperature_c = -14, rainfall = 0 }]",
+        "test");
+    const auto cold = ArtistPlaces(place.sites, script, 50.0, 0.0).at(36.0);
+    const auto of = [&](std::uint32_t patch, int texel) {
+        return cold->states[patch * PLACE_STATE_TEXELS + static_cast<std::size_t>(texel)];
+    };
+    const auto open = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.y > 0.9f && p.y < 0.1f && p.x > 4.0f && p.x < 5.0f && std::abs(p.z) < 3.0f;
+    });
+    const auto under = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.y > 0.9f && p.y < 0.1f && p.x > -5.4f && p.x < -4.6f && std::abs(p.z) < 3.0f;
+    });
+    const auto wall = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.x > 0.9f && p.y > 1.5f && p.y < 2.4f && std::abs(p.z) < 2.0f;
+    });
+    const auto model =
+        weather::artist_moment(script.solve(), script.timeline, script.sky, 36.0).values;
+    EXPECT_GT(of(open, 0).z, model.flood_puddles + 0.2f) << "ice, which the model itself makes snow of";
+    EXPECT_GT(of(open, 1).x, 0.5f);
+    EXPECT_EQ(of(wall, 1).x, 0.0f);
+    EXPECT_LT(of(under, 1).x, 0.5f * of(open, 1).x);
 }
 
 }  // namespace

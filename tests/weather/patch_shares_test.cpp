@@ -235,6 +235,23 @@ TEST(PatchShares, FactorsOfPlaces)
     const PlaceFactors dim = place_factors(shaded, kind, climate);
     EXPECT_LT(dim.drying, 0.85);
     EXPECT_NEAR(dim.rain, 1.0, 1e-12);
+    // A house to the west, whose eaves stand 60 degrees high: in its lee a gale's drops fall steeply, and
+    // rain comes over it; without the lee next to none would.
+    WeatherPatch lee = open;
+    for (int i = 0; i < kVisibleBits; ++i) {
+        const Direction d = visible_direction(i);
+        if (d.x < 0.0 && d.y < 0.7)
+            lee.visible[static_cast<std::size_t>(i >> 5)] &= ~(1u << (i & 31));
+    }
+    climate.wind_m_s = 20.0;
+    const double straight = rain_share(lee.visible, rain_fan(20.0, 0.0, climate.rain_mm_h));
+    EXPECT_LT(straight, 0.1);
+    EXPECT_GT(place_factors(lee, kind, climate).rain, straight + 0.3);
+    // Two winds of a script: the mean of both.
+    const WeightedClimate winds[] = {{climate, 0.25}, {PlaceClimate{.wind_m_s = 0.0}, 0.75}};
+    const PlaceFactors mean = place_factors(lee, kind, winds, sun_path(climate));
+    EXPECT_NEAR(mean.rain, 0.25 * place_factors(lee, kind, climate).rain +
+                               0.75 * place_factors(lee, kind, {.wind_m_s = 0.0}).rain, 1e-12);
     // West wind: the wall that faces west is wet, the other dry; neither holds snow.
     climate.wind_m_s = 5.0;
     WeatherPatch wall;

@@ -1,6 +1,10 @@
 #ifndef PETRICHOR_WEATHER_PATCHES_PLACE_FACTORS_H
 #define PETRICHOR_WEATHER_PATCHES_PLACE_FACTORS_H
 
+#include <array>
+#include <cstddef>
+#include <span>
+
 #include "weather/patches/patches.h"
 
 namespace petrichor::weather {
@@ -25,6 +29,23 @@ struct PlaceFactors {
 };
 PlaceFactors place_factors(const WeatherPatch& patch, const PatchKind& kind,
                            const PlaceClimate& climate);
+
+/// The sun of a climate's day, by the hour: the same for all patches.
+struct SunPath {
+    static constexpr std::size_t kHours = 12;
+    std::array<Direction, kHours> towards;  ///< up 0 or less: below the horizon
+    std::array<VisibleLookup, kHours> at;
+};
+SunPath sun_path(const PlaceClimate& climate);
+
+/// Winds that share a day.
+struct WeightedClimate {
+    PlaceClimate climate;
+    double weight = 1.0;  ///< all add up to 1
+};
+/// The mean over climates of a latitude, a day and a north, whose sun goes along `path`.
+PlaceFactors place_factors(const WeatherPatch& patch, const PatchKind& kind,
+                           std::span<const WeightedClimate> climates, const SunPath& path);
 
 }  // namespace petrichor::weather
 
