@@ -67,7 +67,7 @@ bool is_weather(const std::string& text)
 bool is_packed_weather(std::string_view head)
 {
     using namespace std::literals;
-    return begins(head, "\x1f\x8b"sv) || begins(head, "PK\x03\x04"sv) ||
+    return begins(head, "\x1f\x8b"sv) || begins(head, "PK\x03\x04"sv) || begins(head, "PK\x05\x06"sv) ||
            begins(head, "CDF\x01"sv) || begins(head, "CDF\x02"sv) || begins(head, "CDF\x05"sv) ||
            begins(head, "\x89HDF\r\n"sv) || begins(head, "GRIB"sv);
 }

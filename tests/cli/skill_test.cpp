@@ -65,7 +65,12 @@ TEST(Skill, MeansOverTheSharedData)
     EXPECT_LE(mean("road beside METRo", "but not the broken"), 1.0);
     EXPECT_LE(mean("road beside METRo", "but not the broken"),
               0.5 * mean("air beside METRo", "but not the broken"));
-    EXPECT_LT(mean("road measured", ""), mean("air beside the measured road", ""));
+    EXPECT_LE(mean("road started, all ahead", ""), 0.69 * mean("air, all ahead", ""));
+    // Half a cover in place of what the air tells: 37 and 140 W/m2.
+    EXPECT_LE(mean("longwave by air alone", ""), 26.0);
+    EXPECT_LE(mean("sun by air alone", ""), 105.0);
+    // Of the station, over ten winters.
+    EXPECT_LE(mean("under cloud, all sets", ""), 5.0);
 }
 
 // Forecasts that could have been made while a road was measured: nearer than the air on all roads

@@ -98,19 +98,19 @@ TEST(NeverMisread, AYearWithoutADropWasNotMeasured)
     EXPECT_THAT(notes(report), HasSubstr("nothing but 0 in 70 rows"));
 }
 
-TEST(NeverMisread, ThreeDaysOfNothingButZeroDegreesWereNotMeasured)
+TEST(NeverMisread, ThreeDaysOfNothingButZeroDegreesAreTold)
 {
-    const auto table = [](const char* name, const char* second) {
-        std::string text = "time," + std::string(name) + ",dew_point_c,wind_m_s\n";
+    const auto notes_of = [](const char* name, const char* second) {
+        std::string text = "time," + std::string(name) + ",wind_m_s\n";
         for (int hour = 0; hour < 72; ++hour) {
             const std::int64_t us = us_from_iso("2024-01-01").value() + hour * 3600000000LL;
-            text += iso_from_us(us) + (hour == 1 ? "," + std::string(second) : ",0") + ",-1,2\n";
+            text += iso_from_us(us) + "," + (hour == 1 ? second : "0") + ",2\n";
         }
-        return text;
+        return notes(raw(text).report);
     };
-    EXPECT_THAT(refusal(table("air_temp_c", "0")), HasSubstr("no air temperature"));
-    EXPECT_THAT(refusal(table("air_temp_f", "0")), HasSubstr("no air temperature"));
-    EXPECT_EQ(refusal(table("air_temp_c", "0.1")), "read");
+    EXPECT_THAT(notes_of("air_temp_c", "0"), HasSubstr("nothing but 0 degrees in 72 rows"));
+    EXPECT_THAT(notes_of("air_temp_f", "0"), HasSubstr("nothing but 0 degrees in 72 rows"));
+    EXPECT_THAT(notes_of("air_temp_c", "0.1"), Not(HasSubstr("nothing but 0")));
 }
 
 TEST(NeverMisread, NoiseOfASensorIsOneLine)

@@ -203,6 +203,15 @@ void RowCollector::drop_empty_columns()
                                {Field::Cloud, 60.0},      {Field::Visibility, 3.0}};
     for (const Rule& rule : kRules) {
         if (days < rule.days || !all_zero(rule.field)) continue;
+        if (is_temperature(rule.field)) {
+            // Made-up weather may stand at the freezing point: it is kept, and told.
+            const FieldReport& f = report_.fields[report_index(rule.field)];
+            note(ReadNote::Kind::Warning, 0, f.name,
+                 std::string("nothing but 0 degrees in ")
+                     .append(std::to_string(f.present))
+                     .append(" rows: no thermometer measures that"));
+            continue;
+        }
         values_[static_cast<std::size_t>(rule.field)].clear();
         std::erase_if(fallen_, [&](const Fallen& f) { return f.field == rule.field; });
         FieldReport& f = report_.fields[report_index(rule.field)];
