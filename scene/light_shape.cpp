@@ -56,12 +56,11 @@ std::string shape_light(Light& light, const LightShape& shape)
 {
     const bool flat = shape.width_m || shape.height_m;
     const bool round = shape.radius_m || shape.length_m;
-    const bool by_vertex = shape.per_vertex ? *shape.per_vertex > 0.5f : light.specular == kByVertex;
+    const bool by_vertex = shape.per_vertex ? *shape.per_vertex > 0.5f : light.per_vertex;
     if (by_vertex && light.kind == LightKind::Directional) return "a directional light does not light by vertex";
     if (by_vertex && (flat || light.kind == LightKind::Rectangle)) return "a rectangle does not light by vertex";
-    if (by_vertex) light.specular = kByVertex;
-    else if (shape.specular) light.specular = *shape.specular;
-    else if (light.specular == kByVertex) light.specular = 1.0f;
+    light.per_vertex = by_vertex;
+    if (shape.specular) light.specular = *shape.specular;
     if (shape.shadow_strength) light.shadow_strength = *shape.shadow_strength;
     if (shape.mask_channel) {
         if (*shape.mask_channel != std::floor(*shape.mask_channel)) return "the channel of a shadow mask is a whole number";
@@ -107,8 +106,8 @@ LightShape shape_of_light(const Light& light)
         shape.height_m = 2.0f * glm::length(light.half_v_m);
         shape.both_sides = light.both_sides;
     }
-    if (light.specular == kByVertex) shape.per_vertex = 1.0f;
-    else if (light.specular != 1.0f) shape.specular = light.specular;
+    if (light.per_vertex) shape.per_vertex = 1.0f;
+    if (light.specular != 1.0f) shape.specular = light.specular;
     if (light.shadow_strength != 1.0f) shape.shadow_strength = light.shadow_strength;
     if (light.mask_channel > 0) shape.mask_channel = static_cast<float>(light.mask_channel);
     return shape;
@@ -116,7 +115,7 @@ LightShape shape_of_light(const Light& light)
 
 bool lit_by_vertex(const Light& light)
 {
-    return light.specular == kByVertex && (light.kind == LightKind::Point || light.kind == LightKind::Spot);
+    return light.per_vertex && (light.kind == LightKind::Point || light.kind == LightKind::Spot);
 }
 
 void turn_shape(Light& light)

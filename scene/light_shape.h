@@ -19,14 +19,12 @@ struct LightShape {
     std::optional<float> height_m = {};
     std::optional<float> specular = {};  ///< of its highlights
     std::optional<float> mask_channel = {};  ///< Light::mask_channel
-    std::optional<float> per_vertex = {};  ///< 1: kByVertex, 0: by pixel
+    std::optional<float> per_vertex = {};  ///< 1: Light::per_vertex, 0: by pixel
     std::optional<float> shadow_strength = {};  ///< Light::shadow_strength
     bool both_sides = false;        ///< of a rectangle
 };
 
-/// Light::specular of a lamp whose light is worked out at vertices: it has no highlights at all, and no shadows.
-inline constexpr float kByVertex = -1.0f;
-/// Whether it is such a lamp: a point or a spot, whatever its size.
+/// Whether its light is worked out at vertices: that of a point or a spot, whatever its size. It has no highlights and no shadows.
 bool lit_by_vertex(const Light& light);
 
 /// One number of a shape, told once: glTF's extension PETRICHOR_lights_shape and the keys of

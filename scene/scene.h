@@ -430,6 +430,7 @@ struct Light {
     float radius_m = 0.0f;   ///< > 0: a point is a sphere or tube, a spot a disc
     float length_m = 0.0f;   ///< of a tube, along `up`
     bool shaped = false;     ///< a rectangle that is a lamp, not a surface that glows
+    bool per_vertex = false; ///< a point's or a spot's diffuse light is worked out at vertices; it gives no other
     bool glows = false;      ///< a surface that glows, which is seen by itself, too
     float specular = 1.0f;   ///< 0..1: of highlights; 0 fills without any
     float shadow_strength = 1.0f;  ///< 0..1: share of the light that its shadows take away

@@ -36,7 +36,7 @@ Light spot(const glm::vec3& at, const glm::vec3& target, float candela)
 
 std::vector<Light> by_vertex(std::vector<Light> lights)
 {
-    for (Light& light : lights) light.specular = scene::kByVertex;
+    for (Light& light : lights) light.per_vertex = true;
     return lights;
 }
 
