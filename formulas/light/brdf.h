@@ -6,7 +6,6 @@
 #define PETRICHOR_FORMULAS_LIGHT_BRDF_H
 
 #include "base/interop.h"
-#include "formulas/light/facet_loss.h"
 
 SHARED_BEGIN
 
@@ -53,8 +52,6 @@ struct Lobe {
     float nv;
     float view_term;  // of the visibility
     float lit;
-    vec3 again;      // what facets send to each other, of each share that is lost on the way in; none by itself
-    FacetLoss loss;  // of it
 };
 
 SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
@@ -68,20 +65,6 @@ SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
     lobe.nv = clamp(abs(dot(n, v)), 1.0e-4f, 1.0f);
     lobe.view_term = sqrt(lobe.nv * lobe.nv * (1.0f - lobe.a2) + lobe.a2);
     lobe.lit = f0.x + f0.y + f0.z > 0.0f ? 1.0f : 0.0f;
-    lobe.again = splat3(0.0f);
-    lobe.loss.top0 = 0.0f;
-    lobe.loss.top1 = 0.0f;
-    lobe.loss.below0 = 1.0f;
-    lobe.loss.below1 = 0.0f;
-    return lobe;
-}
-
-// The same with the light that its facets lose to each other (formulas/light/facet_loss.h).
-SHARED_FN Lobe with_all_light(Lobe lobe)
-{
-    const float roughness = sqrt(sqrt(lobe.a2));
-    lobe.loss = facet_loss(roughness);
-    lobe.again = found_again(lobe.loss, lobe.f0, roughness, lobe.nv) * lobe.lit;
     return lobe;
 }
 
@@ -99,7 +82,7 @@ SHARED_FN vec3 shade_lobe(Lobe lobe, vec3 l)
     const float light_term = lobe.nv * sqrt(nl * nl * (1.0f - lobe.a2) + lobe.a2);
     const float specular = lobe.a2 * 0.5f * lobe.lit * s * s /
                            max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-30f);
-    return (lobe.diffuse + lobe.again * lost_at(lobe.loss, nl) + schlick_fresnel(lobe.f0, lh) * specular) * nl;
+    return (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * specular) * nl;
 }
 
 // The same for one light alone.

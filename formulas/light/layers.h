@@ -103,8 +103,7 @@ SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, floa
         const float along = mix(alpha, 1.0f, layers.anisotropy * layers.anisotropy);
         const float lh = clamp(dot(l, half_vector(v, l)), 0.0f, 1.0f);
         const float lobe_here = anisotropic_lobe(n, layers.tangent, v, l, along, alpha) * lobe.lit;
-        const float nl = max(facing, 0.0f);
-        base = (lobe.diffuse + lobe.again * lost_at(lobe.loss, nl) + schlick_fresnel(lobe.f0, lh) * lobe_here) * nl;
+        base = (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * lobe_here) * max(facing, 0.0f);
     }
     if (layers.sheen.x + layers.sheen.y + layers.sheen.z > 0.0f) {
         const float nl = max(facing, 0.0f);

@@ -35,7 +35,7 @@ def material(called):
         shader.inputs["Roughness"].default_value = 0.0
     else:
         shader = tree.nodes.new("ShaderNodeBsdfGlossy")
-        shader.distribution = "MULTI_GGX"
+        shader.distribution = "GGX"
         shader.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
         shader.inputs["Roughness"].default_value = scenes.METAL[called]
     tree.links.new(shader.outputs[0], output.inputs["Surface"])

@@ -1,4 +1,4 @@
-"""Small scenes whose materials and lights mean the same to any renderer: Lambert, white metals of GGX (all bounces between its facets), glTF's layers.
+"""Small scenes whose materials and lights mean the same to any renderer: Lambert, white metals of GGX, glTF's layers.
 
 Each is told once and becomes a glTF file with a scenario for Petrichor (write()) and meshes for Blender
 (render_cycles.py). Metres, y up; a camera looks along its own -z. Light in lux, candela and cd/m2.

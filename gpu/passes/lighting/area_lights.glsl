@@ -81,23 +81,13 @@ float light_near_m(LightRow light)
     return in_lantern(light) ? LANTERN_HALF_M : LAMP_MAP_NEAR_M;
 }
 
-// What facets send to each other of a lobe leaves as from a matt surface: in another lobe so much of it.
-Lobe with_again_of(Lobe lobe, Lobe from, float share)
-{
-    lobe.again = from.again * share;
-    lobe.loss = from.loss;
-    return lobe;
-}
-
-// The same surface without its highlight, but for what goes on between facets.
-//   highlight  share of it
-LitPoint matt_part(LitPoint p, float highlight)
+// The same surface without its highlight.
+LitPoint matt_part(LitPoint p)
 {
     LitPoint q = p;
     q.specular = vec3(0.0);
-    q.lobe = with_again_of(make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), vec3(0.0),
-                                     p.roughness * p.roughness), p.lobe, highlight);
-    q.second.lobe.again *= highlight;
+    q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), vec3(0.0),
+                       p.roughness * p.roughness);
     q.second.lobe.lit = 0.0;
     q.second.lobe.f0 = vec3(0.0);
     return q;
@@ -189,11 +179,11 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
     const float irradiance = kPi * seen / max(dot(p.normal, l), 1.0e-3);
     const bool ggx = mirrors_as_ggx(p.model) && p.layers.anisotropy <= 0.0;
     const float alpha = min(p.roughness * p.roughness + 0.5 * wide, 1.0);
-    LitPoint q = matt_part(p, highlight < 0.0 ? 1.0 : highlight);
+    LitPoint q = matt_part(p);
     if (!ggx) {
         q.roughness = sqrt(alpha);
         q.specular = p.specular * specular;
-        q.lobe = with_again_of(make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular, alpha), q.lobe, 1.0);
+        q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular, alpha);
     }
     if (p.layers.coat > 0.0) {
         const float coat = p.layers.coat_roughness * p.layers.coat_roughness;
@@ -236,7 +226,7 @@ vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3
     bright.layers.sheen = vec3(0.0);
     bright.roughness = sqrt(alpha);
     bright.lobe = make_lobe(p.lobe.normal, p.view, vec3(0.0), p.specular, alpha);
-    LitPoint matt = matt_part(p, size.z);
+    LitPoint matt = matt_part(p);
     if (GATHERS != 0u && p.gathers == GATHERS_DIFFUSE) bright.gathers = GATHERS_REST;
     if (GATHERS != 0u && p.gathers == GATHERS_SPECULAR) matt.gathers = GATHERS_REST;
     return (shadowed_light(matt, nearest_on_axis(centre, half_axis), visible) +
@@ -307,12 +297,12 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
     const float blurred = min(alpha + 0.5 * wide, 1.0);
     const bool ggx = mirrors_as_ggx(p.model) && p.layers.anisotropy <= 0.0;
     const float highlight = glow_highlight(p.roughness);
-    LitPoint q = matt_part(p, 1.0);
+    LitPoint q = matt_part(p);
     if (!ggx) {
         q.roughness = sqrt(blurred);
         q.specular = p.specular * highlight;
-        q.lobe = with_again_of(make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
-                                         blurred), q.lobe, 1.0);
+        q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
+                           blurred);
     }
     if (p.layers.coat > 0.0) {
         const float coat = p.layers.coat_roughness * p.layers.coat_roughness;

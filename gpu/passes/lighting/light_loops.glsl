@@ -75,7 +75,6 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
         }
         if ((WAYS & LIGHTS_FILL) != 0u) {
             p.lobe.lit *= max(size.z, 0.0);
-            p.lobe.again *= max(size.z, 0.0);
             p.film.lit *= max(size.z, 0.0);
         }
     }

@@ -253,11 +253,11 @@ void main()
         p.point_lamps = (ways & LOOK_POINT_LAMPS) != 0u;
         p.unshadowed = (ways & LOOK_UNSHADOWED) != 0u;
         p.film = film;
-        p.second = LobeBeside(make_lobe(n, v, vec3(0.0), vec3(0.0), 1.0), 1.0, 0.0);
+        p.second = LobeBeside(Lobe(n, v, vec3(0.0), vec3(0.0), 1.0, 1.0, 1.0, 0.0), 1.0, 0.0);
         if (TWO_LOBES && beside.share > 0.0) {
             p.second.roughness = clamp(beside.roughness, 0.045, 1.0);
             p.second.share = beside.share;
-            p.second.lobe = with_all_light(make_lobe(beside.normal, v, vec3(0.0), m.specular, p.second.roughness * p.second.roughness));
+            p.second.lobe = make_lobe(beside.normal, v, vec3(0.0), m.specular, p.second.roughness * p.second.roughness);
         }
         vec3 mirror_normal = first_normal;
         if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {
@@ -308,8 +308,8 @@ void main()
                 }
             }
         }
-        p.lobe = with_all_light(make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
-                                          p.roughness * p.roughness));
+        p.lobe = make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
+                           p.roughness * p.roughness);
 
         p.shaped = shaped_lobes(p);
         if ((SUN != 0u && SHADOWS != 0u) || LAMP_SHADOWS != 0u)
