@@ -192,7 +192,9 @@ struct Renderer::Impl {
         facts.lamps = lights.size();
         // Where vertices do not wait for them such lamps light pixels, and are mirrored as little.
         for (Light& light : lights) {
-            if (scene::lit_by_vertex(light) && !scene->vertex_lamps()) light.specular = 0.0f;
+            if (!scene::lit_by_vertex(light) || scene->vertex_lamps()) continue;
+            light.per_vertex = false;
+            light.specular = 0.0f;
         }
         light_table = {};
         light_arena = std::make_unique<MemoryArena>(device);

@@ -236,7 +236,7 @@ TEST_F(VertexLightTest, ManyInstancesAreLitEach)
     Scene scene = scene_of({ball(0, {}, 0.3f, 24, 48)}, {matt(glm::vec3(0.6f))});
     scene.instances.clear();
     for (int i = 0; i < 24; ++i)
-        scene.instances.push_back({"ball", 0, glm::translate(glm::mat4(1.0f), glm::vec3(i % 6 - 2.5f, i / 6 - 1.5f, 0))});
+        scene.instances.push_back({"ball", 0, glm::translate(glm::mat4(1.0f), glm::vec3(static_cast<float>(i % 6) - 2.5f, static_cast<float>(i / 6) - 1.5f, 0))});
     for (const SurfacePath path : {SurfacePath::Visibility, SurfacePath::Fragment}) {
         const Difference d = difference_of(scene, three_lamps(), dark_frame(look({0, 0, 7}, {0, 0, 0}, 0.6f), path));
         EXPECT_GT(d.brightest, 5.0f);
