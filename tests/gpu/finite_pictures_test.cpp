@@ -70,8 +70,7 @@ protected:
         std::vector<Material> materials(3, plain_material(glm::vec3(0.5f), 0.5f));
         for (Material& m : materials) mutate(m);
         Scene scene = scene_of(std::move(parts), std::move(materials));
-        const int lamps = static_cast<int>(random_() % 5);
-        for (int i = 0; i < lamps; ++i) scene.lights.push_back(any_lamp());
+        scene.materials[1].lighting_model = "skin";
         return scene;
     }
 
@@ -108,7 +107,7 @@ protected:
         w.film_mm = one_of({0.0f, 0.4f, 10.0f});
         w.snow_depth_m = white ? one_of({0.0f, 1e-4f, 0.2f, 100.0f}) : 0.0f;
         w.swe_kg_m2 = 200.0f * w.snow_depth_m;
-        w.wind_m_s = glm::vec2(one_of({3.0f, 60.0f}), one_of({0.0f, -60.0f}));
+        w.wind_m_s = glm::vec2(one_of({3.0f, 60.0f}), 0.0f);
         w.visibility_m = one_of({0.5f, 50.0f, 20000.0f, 1e9f});
         w.air_temperature_k = one_of({203.15f, 273.15f, 288.15f, 323.15f});
     }
@@ -119,7 +118,7 @@ protected:
         mutate(frame.weather, white);
         frame.camera = look(one_of({glm::vec3(0, 1.6f, 3.2f), glm::vec3(0, 3, 0), glm::vec3(0, -1, 2), glm::vec3(0, 0, 1)}), {0, 0.3f, -0.3f},
                             one_of({1e-3f, 0.8f, 3.0f}));
-        if (one_in(5)) frame.camera.orthographic_height_m = one_of({1e-3f, 3.0f, 1e4f});
+        if (one_in(4)) frame.camera.orthographic_height_m = one_of({1e-3f, 3.0f, 1e4f});
         frame.settings.width = 48;
         frame.settings.height = 32;
         frame.settings.samples = one_of({1, 4});
@@ -153,7 +152,7 @@ protected:
         std::ostringstream said;
         for (std::size_t i = 0; i < r.beauty.size(); ++i) {
             if (std::isfinite(half_to_float(r.beauty[i]))) continue;
-            said << "beauty[" << i % 4 << "] at " << i / 4 % static_cast<std::size_t>(r.width) << " " << i / 4 / static_cast<std::size_t>(r.width);
+            said << "beauty[" << i % 4 << "] = " << half_to_float(r.beauty[i]) << " at " << i / 4 % static_cast<std::size_t>(r.width) << " " << i / 4 / static_cast<std::size_t>(r.width);
             return said.str();
         }
         for (const AovImage& image : r.aovs) {
@@ -170,21 +169,38 @@ protected:
     }
 };
 
-// Few scenes and many frames: pipelines are made for materials, numbers change from frame to frame.
+// A lamp a millimetre above white ground.
+TEST_F(FinitePictures, WhatIsBrighterThanAHalfHoldsIsTheLargestHalf)
+{
+    Scene scene = scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2})}, {plain_material(glm::vec3(0.9f))});
+    Light lamp;
+    lamp.position_m = {0, 0.001f, 0};
+    lamp.intensity = 1e6f;
+    scene.lights = {lamp};
+    renderer->load(scene, {});
+    Frame frame;
+    frame.camera = look({0, 0.5f, 0.5f}, {0, 0, 0}, 0.1f);
+    frame.settings.width = frame.settings.height = 9;
+    frame.settings.exposure = 1.0f;
+    EXPECT_EQ(pixel(renderer->render(frame), 4, 4), glm::vec3(65504.0f));
+}
+
+// Few materials and many frames: pipelines are made for materials, numbers change from frame to frame.
 TEST_F(FinitePictures, OfMutatedScenes)
 {
     const std::vector<Texture> pixels = chequered_textures();
     int lit = 0, pictures = 0;
+    const Scene mutated = mutated_scene();
     for (const float scale : {1.0f, 0.0025f, 2500.0f}) {  // 4 m, 1 cm and 10 km wide
-        Scene scene = mutated_scene();
-        scene.materials[1].lighting_model = one_of<const char*>({"skin", "hair", "lux", "lwrp", "burley"});
+        Scene scene = mutated;
         scene.instances[0].to_world = glm::scale(glm::mat4(1.0f), glm::vec3(scale));
+        for (int i = 0; i < 3; ++i) scene.lights.push_back(any_lamp());
         for (Light& lamp : scene.lights) lamp.position_m *= scale;
         renderer->load(scene, pixels);
-        for (int k = 0; k < 16; ++k) {
+        for (int k = 0; k < 6; ++k) {
             Frame frame = mutated_frame(k % 2 != 0);
             frame.settings.surface_path = scale < 1.0f ? SurfacePath::Fragment : SurfacePath::Visibility;
-            frame.settings.any_light = k > 1;
+            frame.settings.any_light = true;
             frame.camera.to_world[3] *= glm::vec4(glm::vec3(scale), 1.0f);
             frame.camera.near_m = std::min(0.05f, 0.02f * scale);
             for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {

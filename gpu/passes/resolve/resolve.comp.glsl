@@ -49,7 +49,8 @@ void main()
     if (any(greaterThanEqual(texel, frame.size))) return;
     const vec4 mean = imageLoad(accumulated, texel) / frame.samples;
     const int index = texel.y * frame.size.x + texel.x;
-    beauty[index] = uvec2(half_codes(mean.r, mean.g), half_codes(mean.b, mean.a));
+    const vec3 kept = min(mean.rgb, vec3(65504.0));  // a half has no more
+    beauty[index] = uvec2(half_codes(kept.r, kept.g), half_codes(kept.b, mean.a));
 
     vec3 seen = mean.rgb;
     if (WET_LENS != 0u && frame.wet_lens > 0.0) {
