@@ -1,4 +1,5 @@
 // Whatever a scene, its materials and its weather say within their ranges: every number of a picture is one.
+#include <array>
 #include <random>
 #include <sstream>
 
@@ -12,6 +13,8 @@ namespace {
 class FinitePictures : public GpuTest {
 protected:
     std::mt19937 random_{11};
+    // What a pipeline is made for is one of few shapes, which all scenes share; numbers are of each frame alone.
+    static constexpr int kShapes = 3;
     float unit() { return static_cast<float>(random_() >> 8) / 16777216.0f; }
     bool one_in(int n) { return static_cast<int>(random_() % static_cast<std::uint32_t>(n)) == 0; }
     template <class T> T one_of(std::initializer_list<T> all) { return all.begin()[random_() % all.size()]; }
@@ -74,10 +77,10 @@ protected:
         return scene;
     }
 
-    Light any_lamp()
+    Light any_lamp(LightKind kind)
     {
         Light lamp;
-        lamp.kind = one_of({LightKind::Point, LightKind::Spot, LightKind::Rectangle});
+        lamp.kind = kind;
         lamp.color = {any(0, 1), any(0, 1), any(0, 1)};
         lamp.intensity = one_of({0.0f, 1e-3f, 10.0f, 1e6f});
         lamp.range_m = one_of({0.0f, 1e-3f, 4.0f, 1e5f});
@@ -112,10 +115,22 @@ protected:
         w.air_temperature_k = one_of({203.15f, 273.15f, 288.15f, 323.15f});
     }
 
-    Frame mutated_frame(bool white)
+    static void shape(Frame& frame, int k)
+    {
+        frame.settings.gamma = k == 1;
+        frame.settings.lazarov = k == 2;
+        frame.settings.horizon_fade = k == 1 ? 0.0f : 1.0f;
+        frame.settings.area_lights = std::array{AreaLights::Ltc, AreaLights::Nearest, AreaLights::Off}[static_cast<std::size_t>(k)];
+        frame.fog.mode = std::array{FogMode::Exp, FogMode::Metres, FogMode::Off}[static_cast<std::size_t>(k)];
+        frame.sky.sun_illuminance = k == 2 ? 0.0f : 100000.0f;
+        frame.sky.moon_lux = k == 2 ? 0.3f : 0.0f;
+    }
+
+    Frame mutated_frame(int k)
     {
         Frame frame;
-        mutate(frame.weather, white);
+        mutate(frame.weather, k != 0);
+        shape(frame, k);
         frame.camera = look(one_of({glm::vec3(0, 1.6f, 3.2f), glm::vec3(0, 3, 0), glm::vec3(0, -1, 2), glm::vec3(0, 0, 1)}), {0, 0.3f, -0.3f},
                             one_of({1e-3f, 0.8f, 3.0f}));
         if (one_in(4)) frame.camera.orthographic_height_m = one_of({1e-3f, 3.0f, 1e4f});
@@ -123,23 +138,15 @@ protected:
         frame.settings.height = 32;
         frame.settings.samples = one_of({1, 4});
         frame.settings.time_s = one_of({0.0, 0.37, 1e6});
-        frame.settings.surface_path = one_of({SurfacePath::Fragment, SurfacePath::Visibility});
         frame.settings.bloom = any(0, 1);
         frame.settings.wet_lens = any(0, 1);
         frame.settings.specular_aa = any(0, 4);
         frame.settings.occlusion_direct = any(0, 1);
-        frame.settings.gamma = one_in(6);
-        frame.settings.lazarov = one_in(3);
-        frame.settings.horizon_fade = one_of({0.0f, 1.0f});
         frame.settings.tone_map = one_of({ToneMap::Linear, ToneMap::Filmic, ToneMap::Agx, ToneMap::Aces, ToneMap::Neutral});
-        frame.settings.area_lights = one_of({AreaLights::Off, AreaLights::Ltc, AreaLights::Nearest});
         frame.sky.sun_elevation_rad = one_of({-1.5707963f, -0.05f, 0.0f, 0.6f, 1.5707963f});
-        frame.sky.sun_illuminance = one_of({0.0f, 100000.0f});
         frame.sky.cloud_cover = frame.weather.cloud_fraction;
         frame.sky.turbidity = any(1.5f, 10.0f);
-        frame.sky.moon_lux = one_of({0.0f, 0.3f});
         frame.sky.moon_elevation_rad = one_of({-1.0f, 0.0f, 1.0f});
-        frame.fog.mode = one_of({FogMode::Off, FogMode::Metres, FogMode::Exp, FogMode::Exp2, FogMode::Linear});
         frame.fog.per_m = one_of({0.0f, 0.01f, 100.0f});
         frame.fog.height_m = one_of({0.0f, 1.0f, 120.0f});
         frame.falling.shutter_s = one_of({1e-6f, 0.004f, 1.0f});
@@ -189,24 +196,28 @@ TEST_F(FinitePictures, OfMutatedScenes)
 {
     const std::vector<Texture> pixels = chequered_textures();
     int lit = 0, pictures = 0;
-    const Scene mutated = mutated_scene();
+    Scene mutated = mutated_scene();
+    for (const LightKind kind : {LightKind::Point, LightKind::Spot, LightKind::Rectangle}) mutated.lights.push_back(any_lamp(kind));
+    std::array<std::vector<MaterialChange>, kShapes> keyed;
+    for (auto& values : keyed) {
+        for (std::uint32_t m = 0; m < mutated.materials.size(); ++m) {
+            for (const scene::MaterialProperty& row : scene::material_table()) {
+                if (row.keyed && one_in(3)) values.push_back({m, row.name, any_value(row, mutated.materials[m])});
+            }
+        }
+    }
     for (const float scale : {1.0f, 0.0025f, 2500.0f}) {  // 4 m, 1 cm and 10 km wide
         Scene scene = mutated;
         scene.instances[0].to_world = glm::scale(glm::mat4(1.0f), glm::vec3(scale));
-        for (int i = 0; i < 3; ++i) scene.lights.push_back(any_lamp());
         for (Light& lamp : scene.lights) lamp.position_m *= scale;
         renderer->load(scene, pixels);
-        for (int k = 0; k < 6; ++k) {
-            Frame frame = mutated_frame(k % 2 != 0);
+        for (int k = 0; k < 2 * kShapes; ++k) {
+            Frame frame = mutated_frame(k % kShapes);
             frame.settings.surface_path = scale < 1.0f ? SurfacePath::Fragment : SurfacePath::Visibility;
             frame.settings.any_light = true;
             frame.camera.to_world[3] *= glm::vec4(glm::vec3(scale), 1.0f);
             frame.camera.near_m = std::min(0.05f, 0.02f * scale);
-            for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
-                for (const scene::MaterialProperty& row : scene::material_table()) {
-                    if (row.keyed && one_in(3)) frame.materials.push_back({m, row.name, any_value(row, scene.materials[m])});
-                }
-            }
+            frame.materials = keyed[static_cast<std::size_t>(k % kShapes)];
             const RenderResult r = renderer->render(frame);
             EXPECT_EQ(first_that_is_none(r), "") << 4 * scale << " m wide, frame " << k;
             lit += luminance(pixel(r, 24, 20)) > 0.0f;
