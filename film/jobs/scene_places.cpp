@@ -56,6 +56,15 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
                                     [&](const SequenceVariant& v) {
                                         return wants_places(sequence, v.weather);
                                     });
+    const auto runs_a_file = [&](const SequenceVariant& v) {
+        return v.weather.table != nullptr && wants_places(sequence, v.weather);
+    };
+    const bool taps = !sequence.scenario.ground.taps.empty();
+    const char* const dry =
+        "[ground] tap: no water runs, since it does so on patches under a weather file and the "
+        "physical model alone";
+    if (taps && std::none_of(sequence.variants.begin(), sequence.variants.end(), runs_a_file))
+        notes.emplace_back(dry);
     if (first == sequence.variants.end()) {
         if (auto note = note_of_pictures(sequence.scenario.output)) notes.push_back(std::move(*note));
         if (wants_hollows(sequence)) hollows_.emplace(sequence.scene);
@@ -73,6 +82,8 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
     const SceneTransport transport = prepare_transport(sequence.scene, options);
     if (transport.patches.empty()) {
         notes.emplace_back("no surface stops light: the weather is the same everywhere");
+        if (taps && std::find(notes.begin(), notes.end(), dry) == notes.end())
+            notes.emplace_back(dry);
         return;
     }
     std::vector<std::string> alpha_notes;
@@ -111,6 +122,7 @@ void ScenePlaces::place(const Sequence& sequence, const Job& job, SequenceFrame&
         weather::PatchParams params;
         params.model = variant.weather.physical;
         params.north_deg = sequence.scenario.scene.north_degrees;
+        params.taps = taps_of_run(sites_->taps, variant.weather.utc_us);
         params.threads = threads_;
         // From the sequence's own first frame, whichever are asked for: the same bits for all.
         const std::int64_t from_us = variant.weather.utc_us(frame_time_s(sequence, 0));
@@ -129,6 +141,7 @@ void ScenePlaces::place(const Sequence& sequence, const Job& job, SequenceFrame&
                     {"ponds_m3", sums.ponds_m3},
                     {"pond_ice_kg", sums.pond_ice_kg},
                     {"fallen_kg", sums.books.fallen},
+                    {"let_in_kg", sums.books.let_in},
                     {"evaporated_kg", sums.books.evaporated + sums.books.lost_from_ponds},
                     {"sublimated_kg", sums.books.sublimated},
                     {"soaked_kg", sums.books.soaked},

@@ -569,6 +569,14 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
         for (const std::string& glob : ground.not_ground) hasher.add(glob);
         for (const glm::dvec3& drain : ground.drains)
             for (const double v : {drain.x, drain.y, drain.z}) hasher.add(v);
+        for (const ScenarioTap& tap : ground.taps) {
+            hasher.add("tap");
+            for (const double v : {tap.x_z_m.x, tap.x_z_m.y, tap.litres_per_min}) hasher.add(v);
+            for (const auto& at : {tap.from_s, tap.to_s}) {
+                hasher.add(at.has_value());
+                hasher.add(at.value_or(0.0));
+            }
+        }
         hasher.add(scenario.scene.north_degrees);
         hasher.add(what.moment.utc_us.value_or(0));
     });

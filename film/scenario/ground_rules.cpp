@@ -1,5 +1,6 @@
 #include "film/scenario/rule_tables.h"
 
+#include "film/scenario/taps.h"
 #include "film/scenario/tracks.h"
 
 namespace petrichor::film {
@@ -21,13 +22,24 @@ std::vector<Rule> ground_rules()
         {{"ground", "drains", "[[2.0, -1.5, 0.2]]",
           "where water leaves the ground: x, z and radius, metres"},
          [](Scenario& s, const TomlValue& v) {
-             s.ground.drains.clear();
              for (const TomlValue& one : v.elements()) {
                  const std::vector<double> n = one.numbers(3, -1e6, 1e6);
                  if (n[2] < 0.0) one.refuse("x, z and a radius of 0 or more");
                  s.ground.drains.emplace_back(n[0], n[1], n[2]);
              }
          }},
+        {{"ground", "drain", "[{ x_z_m = [2.0, -1.5], radius_m = 0.2 }]",
+          "the same as tables, [[ground.drain]]; those of both keys count"},
+         [](Scenario& s, const TomlValue& v) {
+             const std::vector<glm::dvec3> drains = read_drains(v);
+             s.ground.drains.insert(s.ground.drains.end(), drains.begin(), drains.end());
+         }},
+        {{"ground", "tap",
+          "[{ x_z_m = [2.0, -1.5], litres_per_min = 20.0, from_s = 0.0, to_s = 600.0 }]",
+          "water that is let in on the ground, under a weather file and the physical model; tables "
+          "[[ground.tap]] do as well. It wets what it runs over and fills the hollow below. Seconds "
+          "are those of the film; without them it always runs"},
+         [](Scenario& s, const TomlValue& v) { s.ground.taps = read_taps(v); }},
         {{"ground", "gutters", "true",
           "eaves more than 2 m up give nine tenths of their water to a gutter"},
          [](Scenario& s, const TomlValue& v) { s.ground.gutters = v.boolean(); }},

@@ -332,12 +332,20 @@ struct ScenarioTrack {
     double depth = 1.0;                ///< 0 nothing .. 1 as deep as the snow lets them
 };
 
+/// Water that is let in on the ground.
+struct ScenarioTap {
+    glm::dvec2 x_z_m{0.0};
+    double litres_per_min = 0.0;         ///< >= 0
+    std::optional<double> from_s, to_s;  ///< of the film; not given: it always runs
+};
+
 /// [ground]: the weather of the scene's places, and what its water does.
 struct ScenarioGround {
     /// Weather on every patch of the scene; not given: of weather files, and of keys where light is of patches.
     std::optional<bool> patches;
     std::vector<std::string> ground, not_ground;  ///< globs of materials
     std::vector<glm::dvec3> drains;               ///< x, z and radius, m
+    std::vector<ScenarioTap> taps;
     bool gutters = true;
     std::vector<ScenarioTrack> tracks;
 };

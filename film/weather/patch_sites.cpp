@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <memory>
 #include <optional>
 
+#include "film/weather/surface_by_name.h"
 #include "scene/basins/water.h"
 #include "weather/patches/driving_rain.h"
 
@@ -31,76 +31,6 @@ constexpr float kRoomLeast_m = 1.5f, kDoor_m = 2.0f;
 constexpr float kBlade_m = 0.03f;      // what is narrower stands free among its like
 constexpr int kSamplesAsked = 5;       // of a patch, evenly among its kPatchSamples
 constexpr double kGroundNear_m = 0.3;  // of the height field: higher up it is no ground
-
-struct NameWord {
-    const char* word;
-    const char* surface;
-};
-// The first word that a name holds decides: "roof tile" comes before "tile" and "metal".
-constexpr NameWord kWords[] = {
-    {"asphalt", "asphalt"},
-    {"tarmac", "asphalt"},
-    {"road", "asphalt"},
-    {"street", "asphalt"},
-    {"cobble", "cobblestone"},
-    {"paving", "paving_stones"},
-    {"pavement", "paving_stones"},
-    {"sidewalk", "paving_stones"},
-    {"kerb", "concrete"},
-    {"curb", "concrete"},
-    {"concrete", "concrete"},
-    {"plaster", "concrete"},
-    {"stucco", "concrete"},
-    {"brick", "brick"},
-    {"gravel", "gravel"},
-    {"sand", "sand"},
-    {"soil", "soil"},
-    {"dirt", "soil"},
-    {"mud", "soil"},
-    {"earth", "soil"},
-    {"grass", "lawn"},
-    {"lawn", "lawn"},
-    {"meadow", "lawn"},
-    {"moss", "lawn"},
-    {"metal", "roof_metal"},
-    {"steel", "roof_metal"},
-    {"zinc", "roof_metal"},
-    {"iron", "roof_metal"},
-    {"roof", "roof_tile"},
-    {"tile", "roof_tile"},
-    {"shingle", "roof_tile"},
-    {"wood", "wood"},
-    {"plank", "wood"},
-    {"bark", "wood"},
-    {"rock", "rock"},
-    {"stone", "rock"},
-    {"marble", "rock"},
-};
-
-// Thin, with little heat in it and air around: as a lawn's blades, but no soil behind.
-constexpr const char* kFoliage[] = {"needle", "leaves", "leaf", "foliage", "hedge",
-                                    "plant",  "bush",   "ivy",  "fern"};
-
-std::string lower(const std::string& text)
-{
-    std::string out;
-    for (const char c : text) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
-
-bool is_leaves(const scene::Material& material)
-{
-    return material.alpha_mode == scene::AlphaMode::Mask;
-}
-
-bool is_foliage(const scene::Material& material)
-{
-    const std::string name = lower(material.name);
-    return is_leaves(material) ||
-           std::any_of(std::begin(kFoliage), std::end(kFoliage), [&](const char* word) {
-               return name.find(word) != std::string::npos;
-           });
-}
 
 double luminance(const glm::vec3& rgb)
 {
@@ -137,7 +67,7 @@ std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const sc
         kind.like_air = is_leaves(material);
         // Blades hold snow on a bank where stones shed it.
         kind.holds_by_tilt = !is_leaves(material) && kind.surface.name != "lawn";
-        kind.sheds_snow = kind.surface.name == "roof_metal";
+        kind.slides_above_deg = slides_above_deg(material, kind.surface);
         kind.splash = kind.surface.name == "lawn" ? 0.3 : 1.0;
         kinds.push_back(std::move(kind));
     }
@@ -377,18 +307,6 @@ std::uint32_t drain_of(const SceneGround& ground, const glm::vec3& at, bool& is_
 }
 
 }  // namespace
-
-weather::Surface surface_of_material(const scene::Material& material,
-                                     const weather::Surface& otherwise)
-{
-    const std::string name = lower(material.name);
-    if (is_foliage(material) && !is_leaves(material)) return weather::surface_preset("lawn");
-    for (const NameWord& word : kWords)
-        if (name.find(word.word) != std::string::npos) return weather::surface_preset(word.surface);
-    if (material.metallic > 0.5f && !material.metallic_roughness_texture.present())
-        return weather::surface_preset("roof_metal");
-    return otherwise;
-}
 
 weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer& tracer,
                               std::span<const scene::PatchSurface> surfaces,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "film/weather/surface_by_name.h"
 #include "film/weather/water_relief.h"
 #include "scene/basins/hierarchy.h"
 #include "scene/patches/patches.h"
@@ -19,11 +20,6 @@ struct SceneGround {
     scene::HeightField field;
     scene::Basins basins;
 };
-
-/// Surface of a material for the physical model, from what its name says ("old_cobblestone",
-/// "roof tiles 2"); where it says nothing `otherwise`, for metals a metal roof.
-weather::Surface surface_of_material(const scene::Material& material,
-                                     const weather::Surface& otherwise);
 
 /// A scene's patches as weather sees them: kinds by material (albedo of the patches themselves),
 /// visibility, links, the way that water runs: down a roof from patch to patch, over an edge to

@@ -141,6 +141,7 @@ SceneSites scene_sites(const scene::Scene& scene, const scene::Patches& patches,
     sites.set = patch_sites(patches, tracer, surfaces, sites.ground, otherwise, reliefs);
     sites.relief = reliefs.of_material;
     sites.material = patches.material;
+    sites.taps = tap_sites(keys.taps, sites.ground, patches);
     if (!keys.gutters)
         for (weather::WeatherPatch& p : sites.set.patches) p.gutter_share = 0.0;
     const auto shape = std::make_shared<gpu::PlaceShape>();

@@ -9,6 +9,7 @@
 
 #include "film/scenario/scenario.h"
 #include "film/weather/patch_sites.h"
+#include "film/weather/tap_sites.h"
 #include "film/weather/water_relief.h"
 #include "gpu/frame/frame.h"
 #include "scene/scene.h"
@@ -27,8 +28,10 @@ struct SceneSites {
     std::shared_ptr<const gpu::PlaceShape> shape;
     std::vector<WaterRelief> relief;           ///< by material
     std::vector<std::uint32_t> material;       ///< of a patch
+    std::vector<TapSite> taps;                 ///< of the keys
     std::vector<std::string> notes;
 };
+/// Throws Error for taps as tap_sites.
 SceneSites scene_sites(const scene::Scene& scene, const scene::Patches& patches,
                        const scene::Tracer& tracer, std::span<const scene::PatchSurface> surfaces,
                        const ScenarioGround& keys, const weather::Surface& otherwise);

@@ -369,5 +369,21 @@ TEST(UrbanRadiation, OfAPlainIsThatOfTheOpen)
     EXPECT_GT(s.longwave[kFaceDown], r.longwave[kFaceDown] + 5.0);
 }
 
+// Of sensors that measure what we send them the sky is ours, whatever the walls around are.
+TEST(UrbanRadiation, TheSkyIsFoundBesideTheWallsThatTheSidesMeasure)
+{
+    UrbanSite shaded = plain(true);
+    UrbanDay& day = shaded.days[0];
+    const auto ours = urban_radiation(shaded, day);
+    ASSERT_TRUE(std::isfinite(ours.back().ours_sky_w_m2)) << "a clear day";
+    for (std::size_t i = 0; i < ours.size(); ++i) day.measured[i] = ours[i];
+    const auto same = urban_radiation(shaded, day).back();
+    EXPECT_NEAR(same.measured_sky_w_m2, same.ours_sky_w_m2, 4.0);
+    // A sensor that reads too low by itself makes a colder sky.
+    for (UrbanHour& hour : day.measured) hour.longwave[kFaceDown] -= 25.0;
+    const auto low = urban_radiation(shaded, day).back();
+    EXPECT_LT(low.measured_sky_w_m2, same.measured_sky_w_m2 - 25.0);
+}
+
 }  // namespace
 }  // namespace petrichor::cli

@@ -22,7 +22,7 @@ constexpr std::size_t kMostCheckpoints = 6;
 constexpr std::size_t kCheckpointEvery = 24;  // steps, at first; doubled when there are too many
 constexpr double kBare_kg_m2 = 0.01;          // of snow: nothing
 constexpr double kDarkSky = 0.2;              // of the scout in the yard
-constexpr std::uint64_t kMagic = 0x3243544150525450ull;  // "PTRPATC2"
+constexpr std::uint64_t kMagic = 0x3343544150525450ull;  // "PTRPATC3"
 
 void check(const PatchParams& p)
 {
@@ -71,8 +71,9 @@ std::size_t last_bare_step(const ForcingTable& table, const PatchParams& params,
 
 void append(std::vector<std::byte>& to, const void* from, std::size_t bytes)
 {
-    const auto* first = static_cast<const std::byte*>(from);
-    to.insert(to.end(), first, first + bytes);
+    const std::size_t end = to.size();
+    to.resize(end + bytes);
+    if (bytes > 0) std::memcpy(to.data() + end, from, bytes);
 }
 template <class T>
 void append_row(std::vector<std::byte>& to, const std::vector<T>& row)
@@ -144,6 +145,11 @@ struct PatchWeather::Impl {
         hash.add(static_cast<double>(plan.begin_us), static_cast<double>(plan.end_us),
                  params.north_deg, static_cast<double>(tables.set.links.size()));
         for (const double t : table[Field::AirTemp]) hash.add(t);
+        for (const PatchTap& tap : params.taps) {
+            hash.add(tap.flow_kg_s, static_cast<double>(tap.from_us),
+                     static_cast<double>(tap.to_us), static_cast<double>(tap.runs_to));
+            for (const std::uint32_t patch : tap.way) hash.add(static_cast<double>(patch));
+        }
         identity = hash.value();
     }
 
@@ -151,6 +157,7 @@ struct PatchWeather::Impl {
     {
         check(p);
         check_patches(set);
+        check_taps(p.taps, set);
         if (table.rows() == 0 || !table.has(Field::Longwave) || !table.has(Field::Precip)) {
             throw Error("weather of patches: the forcing table is not complete",
                         "Call fill_forcing on the table first.");
@@ -191,6 +198,7 @@ struct PatchWeather::Impl {
         const double air_k = value_at(table, Field::AirTemp, at_us);
         initial.radiosity.assign(tables.slots(), kStefanBoltzmann * air_k * air_k * air_k * air_k);
         initial.hoar.assign(tables.slots(), 0.0);
+        initial.slid_hours.assign(tables.slots(), 0.0);
         initial.pond_m3 = ponds.volume_m3;
         initial.pond_heat_j_kg.assign(tables.set.ponds, 0.0);
         for (auto* row : {&initial.run_on_kg_m2_s, &initial.rain_share, &initial.wind_factor,
@@ -362,6 +370,7 @@ PatchLedger PatchWeather::ledger() const
     books.stored = m.stored_kg(m.moment);
     books.in_ponds = m.ponds_kg(m.moment);
     books.out = m.moment.out_kg;
+    books.let_in = m.moment.let_in_kg;
     books.lost_from_ponds = m.moment.pond_lost_kg;
     for (std::size_t i = 0; i < m.tables.twin; ++i) {
         const CellState c = m.cell(m.moment, i);
@@ -384,11 +393,12 @@ std::uint64_t PatchWeather::hash() const
         std::memcpy(numbers, &c, sizeof c);
         for (const double n : numbers) hash.add(n);
         hash.add(m.moment.hoar[m.tables.slot_of_patch[i]]);
+        hash.add(m.moment.slid_hours[m.tables.slot_of_patch[i]]);
         hash.add(m.moment.radiosity[m.tables.slot_of_patch[i]]);
     }
     for (const double v : m.moment.pond_m3) hash.add(v);
     for (const double v : m.moment.pond_heat_j_kg) hash.add(v);
-    hash.add(m.moment.out_kg, m.moment.pond_lost_kg);
+    hash.add(m.moment.out_kg, m.moment.pond_lost_kg, m.moment.let_in_kg);
     return hash.value();
 }
 
@@ -399,11 +409,12 @@ std::vector<std::byte> PatchWeather::save() const
     const std::uint64_t head[] = {kMagic, m.identity, m.step,
                                   static_cast<std::uint64_t>(m.time_us)};
     append(out, head, sizeof head);
-    const double books[] = {m.live.out_kg, m.live.pond_lost_kg, m.initially_kg};
+    const double books[] = {m.live.out_kg, m.live.pond_lost_kg, m.live.let_in_kg, m.initially_kg};
     append(out, books, sizeof books);
     append_row(out, m.live.blocks);
     append_row(out, m.live.radiosity);
     append_row(out, m.live.hoar);
+    append_row(out, m.live.slid_hours);
     append_row(out, m.live.pond_m3);
     append_row(out, m.live.pond_heat_j_kg);
     append_row(out, m.live.run_on_kg_m2_s);
@@ -421,13 +432,15 @@ void PatchWeather::restore(std::span<const std::byte> saved)
                     "Continue with the scene and the weather file that it was saved with.");
     }
     PatchLive live = m.initial;
-    double books[3];
+    double books[4];
     bytes.take(books, sizeof books);
     live.out_kg = books[0];
     live.pond_lost_kg = books[1];
+    live.let_in_kg = books[2];
     bytes.take_row(live.blocks);
     bytes.take_row(live.radiosity);
     bytes.take_row(live.hoar);
+    bytes.take_row(live.slid_hours);
     bytes.take_row(live.pond_m3);
     bytes.take_row(live.pond_heat_j_kg);
     bytes.take_row(live.run_on_kg_m2_s);
@@ -437,7 +450,7 @@ void PatchWeather::restore(std::span<const std::byte> saved)
     }
     m.live = std::move(live);
     m.step = static_cast<std::size_t>(head[2]);
-    m.initially_kg = books[2];
+    m.initially_kg = books[3];
     m.checkpoints.clear();
     m.checkpoints[m.step] = m.live;
     m.every = kCheckpointEvery;

@@ -11,6 +11,7 @@
 #include "weather/forcing/forcing.h"
 #include "weather/models/physical/physical.h"
 #include "weather/patches/patches.h"
+#include "weather/patches/taps.h"
 
 namespace petrichor::weather {
 
@@ -45,7 +46,8 @@ struct PatchParams {
     double wind_from_deg = 240.0;
     double room_temp_k = 293.15;  ///< of houses behind their walls: the set point of ISO 13790
     double outside_albedo = 0.2, outside_snow_albedo = 0.6;  ///< of the ground beyond the scene
-    int threads = 1;  ///< >= 1; the result does not depend on it
+    std::vector<PatchTap> taps;  ///< water that is let in
+    int threads = 1;             ///< >= 1; the result does not depend on it
 };
 
 /// State of a patch at a moment. Masses per m2 of patch surface.
@@ -60,14 +62,14 @@ struct PatchState {
 };
 
 /// The books of a scene since the start of a run, kg. Closed when
-///   fallen + initially stored == stored + evaporated + sublimated + soaked + out
+///   fallen + let in + initially stored == stored + evaporated + sublimated + soaked + out
 struct PatchLedger {
-    double initially = 0.0, fallen = 0.0;
+    double initially = 0.0, fallen = 0.0, let_in = 0.0;  // the last by taps
     double stored = 0.0, in_ponds = 0.0;
     double evaporated = 0.0, sublimated = 0.0, soaked = 0.0, out = 0.0, lost_from_ponds = 0.0;
     double residual() const
     {
-        return (initially + fallen) -
+        return (initially + fallen + let_in) -
                (stored + in_ponds + evaporated + sublimated + soaked + out + lost_from_ponds);
     }
 };

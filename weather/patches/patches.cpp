@@ -41,6 +41,8 @@ void check_patches(const PatchSet& set)
         check_surface(kind.surface);
         if (!(kind.splash >= 0.0 && kind.splash <= 1.0))
             refuse(kind.surface.name + " splash", kind.splash, "in 0..1");
+        if (!(kind.slides_above_deg >= 0.0 && kind.slides_above_deg <= 90.0))
+            refuse(kind.surface.name + " slides_above_deg", kind.slides_above_deg, "in 0..90");
     }
     for (std::size_t i = 0; i < set.patches.size(); ++i) {
         const WeatherPatch& p = set.patches[i];

@@ -21,8 +21,8 @@ struct PatchKind {
     Surface surface;
     /// Leaves and other thin things that have the temperature of the air: what they radiate.
     bool like_air = false;
-    /// Smooth roofs: the pack leaves a slope above 15 degrees as soon as its base is wet.
-    bool sheds_snow = false;
+    /// Of roofs: on steeper slopes a pack with a wet base slides, the sooner the steeper. 90: never.
+    double slides_above_deg = 90.0;
     /// Falling snow holds by the tilt (snow_holds); on leaves and the like it stays.
     bool holds_by_tilt = true;
     double splash = 1.0;  ///< how hard rain jumps from it, h_f of splash_share

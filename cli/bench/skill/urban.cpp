@@ -39,8 +39,20 @@ struct Sensor {
     weather::Direction look;
     std::vector<std::uint32_t> seen;
     weather::SkyShares sky;
-    double sky_share = 0.0, outside_share = 0.0;
+    double sky_share = 0.0, outside_share = 0.0, ground_share = 0.0;
+    std::array<double, kUrbanFaces> wall_share{};  // by the side that they stand on
+    double walls() const
+    {
+        return wall_share[kFaceNorth] + wall_share[kFaceEast] + wall_share[kFaceSouth] +
+               wall_share[kFaceWest];
+    }
 };
+
+std::size_t side_of(const glm::vec3& way)
+{
+    if (std::abs(way.x) > std::abs(way.z)) return way.x > 0.0f ? kFaceEast : kFaceWest;
+    return way.z > 0.0f ? kFaceSouth : kFaceNorth;
+}
 
 glm::vec3 ray_of(const glm::vec3& n, int r)
 {
@@ -69,6 +81,7 @@ Sensor sensor_of(const scene::Patches& patches, const scene::Tracer& tracer, con
         const auto patch = scene::patch_at(patches, tracer.triangles().point(hit.triangle, hit.at),
                                            hit.back ? -n : n);
         s.seen.push_back(patch.value_or(kDark));
+        (std::abs(n.y) > 0.5f ? s.ground_share : s.wall_share[side_of(d)]) += 1.0 / kRays;
     }
     weather::VisibleBits bits{};
     for (int k = 0; k < weather::kVisibleBits; ++k) {
@@ -139,6 +152,28 @@ HourSun sun_over(const Town& town, const UrbanSite& site, const UrbanDay& day, s
     return sun;
 }
 
+// The sky that the sensor which looks up measures, less what the walls send it. Each side's walls send
+// what its sensor has beside that same sky and the ground: linear in the sky.
+double measured_sky_w_m2(const Town& town, const UrbanHour& measured, double cloud, double air_k)
+{
+    const auto& got = measured.longwave;
+    const double air_w_m2 = weather::kStefanBoltzmann * std::pow(air_k, 4.0);
+    const auto known = [&](const Sensor& s) {
+        return s.sky_share * weather::warm_horizon_w_m2(s.sky.log_secant, cloud, air_k) +
+               s.outside_share * air_w_m2 + s.ground_share * got[kFaceUp];
+    };
+    const Sensor& up = town.sensors[kFaceDown];
+    double left_w_m2 = got[kFaceDown] - known(up), share = up.sky_share;
+    for (const std::size_t side : {kFaceNorth, kFaceEast, kFaceSouth, kFaceWest}) {
+        const Sensor& s = town.sensors[side];
+        if (!(up.wall_share[side] > 0.0) || !(s.walls() > 0.0)) continue;
+        const double weight = up.wall_share[side] / s.walls();
+        left_w_m2 -= weight * (got[side] - known(s));
+        share -= weight * s.sky_share;
+    }
+    return left_w_m2 / share;
+}
+
 std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, const UrbanDay& day)
 {
     const weather::PatchParams params;
@@ -206,6 +241,9 @@ std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, c
                                                weather::warm_horizon_w_m2(
                                                    up.sky.log_secant, now(Field::Cloud), air_k));
             r.black_sky_w_m2 = up.sky_share * air_w_m2;
+            r.measured_sky_w_m2 = measured_sky_w_m2(town, measured, now(Field::Cloud), air_k);
+            r.black_w_m2 = air_w_m2;
+            r.ours_sky_w_m2 = now(Field::Longwave);
         }
         out.push_back(r);
     }
@@ -234,13 +272,17 @@ std::vector<SkillRow> urban_rows(const UrbanSite& site)
                             {"L up", &UrbanHour::longwave, kFaceUp, kFaceUp, {}},
                             {"L of the sides", &UrbanHour::longwave, kFaceNorth, kFaceWest, {}}};
     const Town town(site);
-    ErrorSum left, ours_more;  // of a black sky
+    ErrorSum left, ours_more;            // of a black sky
+    ErrorSum by_walls, ours_over_walls;  // likewise
     for (const UrbanDay& day : site.days) {
         const std::vector<UrbanRadiation> ours = radiation(town, site, day);
         for (std::size_t i = 0; i < ours.size(); ++i) {
             const double more = ours[i].longwave[kFaceDown] - day.measured[i].longwave[kFaceDown];
             left.add((ours[i].clear_sky_w_m2 - more) / ours[i].black_sky_w_m2);
             ours_more.add(more / ours[i].black_sky_w_m2);
+            by_walls.add(ours[i].measured_sky_w_m2 / ours[i].black_w_m2);
+            ours_over_walls.add((ours[i].ours_sky_w_m2 - ours[i].measured_sky_w_m2) /
+                                ours[i].black_w_m2);
             for (Kind& kind : kinds) {
                 for (std::size_t f = kind.first; f <= kind.last; ++f)
                     kind.sum.add((ours[i].*kind.values)[f] - (day.measured[i].*kind.values)[f]);
@@ -254,6 +296,9 @@ std::vector<SkillRow> urban_rows(const UrbanSite& site)
     if (left.count() > 0)
         rows.push_back({site.name, "clear sky over black", "", left.count(), left.bias(),
                         ours_more.bias(), "mean measured"});
+    if (by_walls.count() > 0)
+        rows.push_back({site.name, "the same by its own walls", "", by_walls.count(),
+                        by_walls.bias(), ours_over_walls.bias(), "mean measured"});
     return rows;
 }
 

@@ -12,12 +12,16 @@ namespace petrichor::cli {
 struct UrbanRadiation : UrbanHour {
     /// From the sky to the sensor that looks up, and from a black one as warm as the air; NaN: not clear.
     double clear_sky_w_m2 = weather::kMissing, black_sky_w_m2 = weather::kMissing;
+    /// From all of a clear sky to level ground, by the six sensors alone: walls are what the four sides
+    /// measure of them, ground is what the one that looks down does. NaN: not clear, or not measured.
+    double measured_sky_w_m2 = weather::kMissing;
+    double black_w_m2 = weather::kMissing, ours_sky_w_m2 = weather::kMissing;  ///< likewise
 };
 std::vector<UrbanRadiation> urban_radiation(const UrbanSite& site, const UrbanDay& day);
 
 /// Short and long wave from above, from below and from the four sides together, over all days:
 /// root mean square errors of the hours. Last what the measured longwave leaves for the clear sky, over
-/// a black one. The clear air of a winter with a third of their vapour has .70 (Ellingson et al. 1991).
+/// a black one, by our walls and by their own. The clear air of a winter with a third of their vapour has .70 (Ellingson et al. 1991).
 std::vector<SkillRow> urban_rows(const UrbanSite& site);
 
 }  // namespace petrichor::cli

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "weather/moment.h"
+#include "weather/patches/detail/patch_snow.h"
 #include "weather/patches/detail/patch_water.h"
 #include "weather/physics/evaporation.h"
 #include "weather/physics/exchange.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kMostBeamRatio = 10.0;
 constexpr double kCos85 = 0.08715574274765817;
-constexpr double kWaterAlbedo = 0.08, kWaterRoughness_m = 0.001;
+constexpr double kWaterAlbedo = 0.08, kWaterRoughness_m = 0.001, kSnowRoughness_m = 0.001;
 constexpr int kSweepsDry = 2, kSweepsSnow = 6;
 constexpr double kLeastLight_w_m2 = 1e-3;  // below it is night
 constexpr std::size_t kChunkBlocks = 32;   // that a thread takes at a time
@@ -120,9 +121,11 @@ void set_open_water(SkyStep& sky, const ForcingTable& table)
     sky.open_water_kg_m2_s = std::max(0.0, penman_monteith(p).rate_kg_m2_s);
     sky.air_humidity =
         specific_humidity(vapour_pressure_pa(sky.air_k, p.rel_humidity_pct), p.pressure_pa);
-    sky.pond_exchange_kg_m3 =
-        air_density_kg_m3(sky.air_k, sky.air_humidity, p.pressure_pa) * p.exchange_coefficient;
+    sky.air_density_kg_m3 = air_density_kg_m3(sky.air_k, sky.air_humidity, p.pressure_pa);
+    sky.pond_exchange_kg_m3 = sky.air_density_kg_m3 * p.exchange_coefficient;
     sky.wind_m_s = sky.forcing.wind.at(0.5);
+    sky.wind_10m_m_s = sky.wind_m_s * logarithm(10.0 / kSnowRoughness_m) /
+                       logarithm(std::max(table.site.wind_height_m, 0.1) / kSnowRoughness_m);
 }
 
 // Sun and sky on a slot, W/m2.
@@ -272,6 +275,8 @@ SkyStep make_sky_step(const ForcingTable& table, const PatchParams& params, std:
                       std::int64_t length, bool shares_asked)
 {
     SkyStep sky;
+    sky.begin_us = begin;
+    sky.end_us = begin + length;
     sky.forcing = make_step_forcing(table, begin, length, SunUse::FlatOpenGround);
     sky.longwave = sky.forcing.longwave.at(0.5);
     sky.air_k = sky.forcing.air_c.at(0.5) + kZeroCelsiusK;
@@ -297,6 +302,7 @@ PatchScratch::PatchScratch(const PatchTables& t)
         row->assign(t.slots(), 0.0);
     arriving.assign(t.set.patches.size(), 0.0);
     splash_left.assign(t.set.patches.size(), 0.0);
+    drifts_kg.assign(t.set.patches.size(), 0.0);
     pond_in_m3.assign(t.set.ponds, 0.0);
     pond_loss_m.assign(t.set.ponds, 0.0);
     pond_view.assign(t.set.ponds, {});
@@ -339,7 +345,9 @@ void advance_patches(PatchLive& live, const PatchTables& t, const SkyStep& sky,
                      for (std::size_t b = c * kChunkBlocks; b < to; ++b)
                          run_block(b, live, t, sky, constants, params, w);
                  });
-    slide_snow(live, t, w);
+    drift_snow(live, t, sky, w);
+    slide_snow(live, t, sky.forcing.dt_s, w);
+    let_water_in(live, t, sky, params.taps, w);
     run_off(live, t, sky.forcing.dt_s, w);
     step_ponds(live, t, sky, ponds, w);
 }

@@ -16,9 +16,10 @@ struct PatchLive {
     std::vector<CellBlock> blocks;
     std::vector<double> radiosity;  // J, longwave that leaves, W/m2
     std::vector<double> hoar;       // kg/m2
+    std::vector<double> slid_hours;  // of the patience of a wet pack, see slide_snow
     std::vector<double> pond_m3;
     std::vector<double> pond_heat_j_kg;  // by pond
-    double out_kg = 0.0, pond_lost_kg = 0.0;
+    double out_kg = 0.0, pond_lost_kg = 0.0, let_in_kg = 0.0;
     // Of the last step, for whoever asks: recomputed by the next.
     std::vector<float> run_on_kg_m2_s, rain_share, wind_factor, shortwave_w_m2, longwave_w_m2;
 };
@@ -26,6 +27,7 @@ struct PatchLive {
 // The weather of a step, the same for all patches.
 struct SkyStep {
     StepForcing forcing;
+    std::int64_t begin_us = 0, end_us = 0;
     double global = 0.0, diffuse = 0.0;  // W/m2 on flat ground, mean of the step
     double longwave = 0.0, air_k = 273.15, cloud = 0.0;
     // Directions of the sun within the step: four, above the horizon or not.
@@ -46,6 +48,7 @@ struct SkyStep {
     double open_water_kg_m2_s = 0.0;  // that evaporates from ponds, >= 0
     // Of the air over ponds: what it holds, kg/kg, and what a metre a second of wind carries, kg/m3.
     double air_humidity = 0.0, pond_exchange_kg_m3 = 0.0, wind_m_s = 0.0;
+    double wind_10m_m_s = 0.0, air_density_kg_m3 = 1.25;
 };
 SkyStep make_sky_step(const ForcingTable& table, const PatchParams& params, std::int64_t begin_us,
                       std::int64_t length_us, bool shares_asked);
@@ -60,6 +63,7 @@ struct PatchScratch {
     std::vector<double> rain, snow, wind;       // factors
     std::vector<double> drained;                // kg/m2 in the step
     std::vector<double> arriving, splash_left;  // by patch
+    std::vector<double> drifts_kg;              // by patch: taken below 0, room for it above
     std::vector<double> pond_in_m3, pond_loss_m;
     // Of the patches that drain to a pond: their area, and means over it.
     struct PondView {

@@ -6,7 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "weather/patches/detail/patch_snow.h"
 #include "weather/patches/driving_rain.h"
+#include "weather/patches/moving_snow.h"
 
 namespace petrichor::weather::detail {
 
@@ -44,6 +46,9 @@ PatchSlot slot_of(const WeatherPatch& patch, const PatchKind& kind)
     const double up = std::clamp(patch.normal.y, -1.0, 1.0);
     s.sine_tilt = std::sqrt(1.0 - up * up);
     s.snow_holds = kind.holds_by_tilt ? snow_holds(arc_cosine(up)) : 1.0;
+    s.slide_pull = 0.0;
+    if (up > 0.0 && kind.slides_above_deg < 90.0)
+        s.slide_pull = slide_pull(arc_cosine(up) * 180.0 / kPi, kind.slides_above_deg);
     s.wall_factor = patch.wall_factor;
     return s;
 }
@@ -152,10 +157,10 @@ PatchTables make_patch_tables(PatchSet set, const PatchParams& params, const Sit
     for (std::uint32_t i = 0; i < count; ++i) {
         const WeatherPatch& p = set.patches[i];
         if (p.foot != kNoPatch) t.splashed.push_back(i);
-        if (set.kinds[p.kind].sheds_snow && p.normal.y > 0.0 &&
-            p.normal.y < sine_cosine(15.0 * kPi / 180.0).cos)
-            t.shedding.push_back(i);
     }
+    for (const std::uint32_t i : t.downhill)
+        if (t.slot[t.slot_of_patch[i]].slide_pull > 0.0) t.shedding.push_back(i);
+    t.slide_patience = slide_patience(t, set);
     t.set = std::move(set);
     return t;
 }

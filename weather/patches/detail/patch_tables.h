@@ -31,7 +31,7 @@ void put_cell(CellBlock& block, std::size_t lane, const CellState& cell);
 struct PatchSlot {
     Direction normal;
     double sky_share, patch_share, out_share;
-    double horizon, zenith, log_secant, sine_tilt, snow_holds;
+    double horizon, zenith, log_secant, sine_tilt, snow_holds, slide_pull;
     double wall_factor;
     VisibleBits visible;
     std::array<float, kWindClasses> blocked;
@@ -55,7 +55,8 @@ struct PatchTables {
     // Patches from the uppermost down: nothing runs to one that comes earlier.
     std::vector<std::uint32_t> downhill;
     std::vector<std::uint32_t> splashed;  // patches with a foot
-    std::vector<std::uint32_t> shedding;  // patches that snow slides from
+    std::vector<std::uint32_t> shedding;  // patches that snow slides from, the uppermost first
+    std::vector<double> slide_patience;   // by patch
 
     std::size_t blocks() const { return group_of_block.size(); }
     std::size_t slots() const { return slot.size(); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "weather/patches/detail/patch_spot.h"
 #include "weather/patches/pond_ice.h"
 #include "weather/physics/humidity.h"
 
@@ -12,79 +13,12 @@ namespace petrichor::weather::detail {
 namespace {
 
 constexpr double kMostSplashed = 0.5;  // of the rain on a piece of ground
-constexpr double kHeapDensity_kg_m3 = 350.0;
-constexpr int kReposePasses = 8;
-constexpr double kTanDry = 1.0, kTanMoist = 1.4281480067421144;  // of 45 and 55 degrees
-constexpr double kLeastUp = 0.5;                                 // a heap lies on what faces up
-
-struct Spot {
-    CellBlock& block;
-    std::size_t lane;
-    double& at(std::size_t which) const { return number(block, which, lane); }
-};
-Spot spot_of(PatchLive& live, const PatchTables& t, std::size_t patch)
-{
-    const std::size_t slot = t.slot_of_patch[patch];
-    return {live.blocks[slot / kPatchLanes], slot % kPatchLanes};
-}
 const CellConstants& constants_of(const PatchTables& t, std::size_t patch)
 {
     return t.groups[t.group_of_block[t.slot_of_patch[patch] / kPatchLanes]].constants;
 }
-std::size_t layer(std::size_t first, std::size_t i)
-{
-    return first + i;
-}
-constexpr std::size_t kIce = PETRICHOR_CELL_NUMBER(snow_ice);
-constexpr std::size_t kLiquid = PETRICHOR_CELL_NUMBER(snow_liquid);
-constexpr std::size_t kThick = PETRICHOR_CELL_NUMBER(snow_thickness);
-constexpr std::size_t kTemp = PETRICHOR_CELL_NUMBER(snow_temp_c);
 
-// A piece of a pack, kg and J for a whole patch.
-struct Snow {
-    double ice_kg = 0.0, liquid_kg = 0.0, heat_j = 0.0, volume_m3 = 0.0;
-};
-// Takes a share of every layer.
-Snow take_snow(const Spot& spot, double share, double area_m2)
-{
-    Snow taken;
-    for (std::size_t i = 0; i < kSnowLayers; ++i) {
-        double& ice = spot.at(layer(kIce, i));
-        double& liquid = spot.at(layer(kLiquid, i));
-        double& thick = spot.at(layer(kThick, i));
-        const double temp = spot.at(layer(kTemp, i));
-        taken.ice_kg += ice * share * area_m2;
-        taken.liquid_kg += liquid * share * area_m2;
-        taken.volume_m3 += thick * share * area_m2;
-        taken.heat_j +=
-            (ice * kIceHeatCapacity + liquid * kWaterHeatCapacity) * temp * share * area_m2;
-        ice -= ice * share;
-        liquid -= liquid * share;
-        thick -= thick * share;
-        if (share >= 1.0) ice = liquid = thick = spot.at(layer(kTemp, i)) = 0.0;
-    }
-    return taken;
-}
-// Lays it on top; the upper layer takes it all, and is cut into layers by the next step.
-void lay_snow(const Spot& spot, const Snow& snow, double volume_m3, double area_m2)
-{
-    double& ice = spot.at(kIce);
-    double& liquid = spot.at(kLiquid);
-    double& temp = spot.at(kTemp);
-    const double heat =
-        (ice * kIceHeatCapacity + liquid * kWaterHeatCapacity) * temp + snow.heat_j / area_m2;
-    ice += snow.ice_kg / area_m2;
-    liquid += snow.liquid_kg / area_m2;
-    spot.at(kThick) += volume_m3 / area_m2;
-    const double capacity = ice * kIceHeatCapacity + liquid * kWaterHeatCapacity;
-    temp = capacity > 0.0 ? std::min(heat / capacity, 0.0) : 0.0;
-}
-double depth_of(const Spot& spot)
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kSnowLayers; ++i) sum += spot.at(layer(kThick, i));
-    return sum;
-}
+}  // namespace
 
 void pour_on(PatchLive& live, const PatchTables& t, std::uint32_t target, double kg,
              PatchScratch& w)
@@ -96,44 +30,6 @@ void pour_on(PatchLive& live, const PatchTables& t, std::uint32_t target, double
     else
         live.out_kg += kg;
 }
-
-// Heaps relax towards the angle at which they rest: half of what is too much goes to the lowest
-// neighbour.
-void settle_heaps(PatchLive& live, const PatchTables& t)
-{
-    const PatchSet& set = t.set;
-    if (set.beside_begin.empty()) return;
-    for (int pass = 0; pass < kReposePasses; ++pass) {
-        for (std::uint32_t i = 0; i < t.twin; ++i) {
-            const Spot from = spot_of(live, t, i);
-            const double depth = depth_of(from);
-            if (!(depth > 0.0) || set.patches[i].normal.y < kLeastUp) continue;
-            const double height = set.patches[i].height_m + depth;
-            double steepest = 0.0;
-            std::uint32_t lowest = kNoPatch;
-            for (std::uint32_t k = set.beside_begin[i]; k < set.beside_begin[i + 1]; ++k) {
-                const std::uint32_t j = set.beside[k];
-                if (set.patches[j].normal.y < kLeastUp) continue;
-                const double drop =
-                    height - set.patches[j].height_m - depth_of(spot_of(live, t, j));
-                const double moist = from.at(kLiquid) > 0.0 ? kTanMoist : kTanDry;
-                const double excess = drop - moist * static_cast<double>(set.beside_m[k]);
-                if (excess > steepest) {
-                    steepest = excess;
-                    lowest = j;
-                }
-            }
-            if (lowest == kNoPatch) continue;
-            const double area = set.patches[i].area_m2, area_to = set.patches[lowest].area_m2;
-            // Half of the excess, shared so that the neighbour does not rise above it.
-            const double moved = std::min(depth, 0.5 * steepest * area_to / (area + area_to));
-            const Snow snow = take_snow(from, moved / depth, area);
-            lay_snow(spot_of(live, t, lowest), snow, snow.volume_m3, area_to);
-        }
-    }
-}
-
-}  // namespace
 
 void share_what_falls(const PatchLive& live, const PatchTables& t, PatchScratch& w)
 {
@@ -169,26 +65,54 @@ void share_what_falls(const PatchLive& live, const PatchTables& t, PatchScratch&
     }
 }
 
-void slide_snow(PatchLive& live, const PatchTables& t, PatchScratch& w)
+namespace {
+
+// Stores of a patch fill with what they lack, ice in them counted; then its ground soaks. Returns
+// what is left of the water, kg.
+double take_in(PatchLive& live, const PatchTables& t, std::uint32_t patch, double kg, double dt_s)
 {
-    bool slid = false;
-    for (const std::uint32_t i : t.shedding) {
-        const Spot spot = spot_of(live, t, i);
-        std::size_t base = kSnowLayers;
-        while (base > 0 && !(spot.at(layer(kIce, base - 1)) > 0.0)) --base;
-        if (base == 0 || !(spot.at(layer(kLiquid, base - 1)) > 0.0)) continue;
-        const WeatherPatch& patch = t.set.patches[i];
-        const Snow snow = take_snow(spot, 1.0, patch.area_m2);
-        const double mass = snow.ice_kg + snow.liquid_kg;
-        if (patch.runs_to < t.set.patches.size()) {
-            lay_snow(spot_of(live, t, patch.runs_to), snow, mass / kHeapDensity_kg_m3,
-                     t.set.patches[patch.runs_to].area_m2);
-            slid = true;
-        } else {
-            pour_on(live, t, patch.runs_to, mass, w);
-        }
+    const Spot spot = spot_of(live, t, patch);
+    const CellConstants& k = constants_of(t, patch);
+    double left = kg / t.set.patches[patch].area_m2;
+    const auto fill = [&](std::size_t water, std::size_t ice, double capacity) {
+        const double room = capacity - spot.at(water) - spot.at(ice);
+        const double taken = std::clamp(left, 0.0, std::max(room, 0.0));
+        spot.at(water) += taken;
+        left -= taken;
+    };
+    fill(PETRICHOR_CELL_NUMBER(film), PETRICHOR_CELL_NUMBER(film_ice), k.film_capacity);
+    fill(PETRICHOR_CELL_NUMBER(crack), PETRICHOR_CELL_NUMBER(crack_ice), k.crack_capacity);
+    fill(PETRICHOR_CELL_NUMBER(puddle), PETRICHOR_CELL_NUMBER(puddle_ice), k.puddle_capacity);
+    if (k.permeable && spot.at(PETRICHOR_CELL_NUMBER(surface_temp_c)) > 0.0) {
+        const double soaks = spot.at(PETRICHOR_CELL_NUMBER(infiltration_mm_h)) * dt_s / 3600.0;
+        const double taken = std::min(left, std::max(soaks, 0.0));
+        spot.at(PETRICHOR_CELL_NUMBER(total_infiltration)) += taken;
+        left -= taken;
     }
-    if (slid) settle_heaps(live, t);
+    return left * t.set.patches[patch].area_m2;
+}
+
+void show_run_on(PatchLive& live, const PatchTables& t, std::uint32_t patch, double kg, double dt_s)
+{
+    live.run_on_kg_m2_s[t.slot_of_patch[patch]] +=
+        static_cast<float>(kg / (t.set.patches[patch].area_m2 * dt_s));
+}
+
+}  // namespace
+
+void let_water_in(PatchLive& live, const PatchTables& t, const SkyStep& sky,
+                  const std::vector<PatchTap>& taps, PatchScratch& w)
+{
+    for (const PatchTap& tap : taps) {
+        double left = let_in_kg(tap, sky.begin_us, sky.end_us);
+        live.let_in_kg += left;
+        for (const std::uint32_t patch : tap.way) {
+            if (!(left > 0.0)) break;
+            show_run_on(live, t, patch, left, sky.forcing.dt_s);
+            left = take_in(live, t, patch, left, sky.forcing.dt_s);
+        }
+        if (left > 0.0) pour_on(live, t, tap.runs_to, left, w);
+    }
 }
 
 void run_off(PatchLive& live, const PatchTables& t, double dt_s, PatchScratch& w)
@@ -200,29 +124,8 @@ void run_off(PatchLive& live, const PatchTables& t, double dt_s, PatchScratch& w
         double passed = w.arriving[i];
         w.arriving[i] = 0.0;
         if (passed > 0.0) {
-            live.run_on_kg_m2_s[slot] = static_cast<float>(passed / (patch.area_m2 * dt_s));
-            const Spot spot = spot_of(live, t, i);
-            const CellConstants& k = constants_of(t, i);
-            double left = passed / patch.area_m2;
-            // Stores fill with what they lack, ice in them counted; then the ground soaks.
-            const auto fill = [&](std::size_t water, std::size_t ice, double capacity) {
-                const double room = capacity - spot.at(water) - spot.at(ice);
-                const double taken = std::clamp(left, 0.0, std::max(room, 0.0));
-                spot.at(water) += taken;
-                left -= taken;
-            };
-            fill(PETRICHOR_CELL_NUMBER(film), PETRICHOR_CELL_NUMBER(film_ice), k.film_capacity);
-            fill(PETRICHOR_CELL_NUMBER(crack), PETRICHOR_CELL_NUMBER(crack_ice), k.crack_capacity);
-            fill(PETRICHOR_CELL_NUMBER(puddle), PETRICHOR_CELL_NUMBER(puddle_ice),
-                 k.puddle_capacity);
-            if (k.permeable && spot.at(PETRICHOR_CELL_NUMBER(surface_temp_c)) > 0.0) {
-                const double soaks =
-                    spot.at(PETRICHOR_CELL_NUMBER(infiltration_mm_h)) * dt_s / 3600.0;
-                const double taken = std::min(left, std::max(soaks, 0.0));
-                spot.at(PETRICHOR_CELL_NUMBER(total_infiltration)) += taken;
-                left -= taken;
-            }
-            passed = left * patch.area_m2;
+            show_run_on(live, t, i, passed, dt_s);
+            passed = take_in(live, t, i, passed, dt_s);
         }
         const double shed = passed + w.drained[slot] * patch.area_m2;
         if (!(shed > 0.0)) continue;

@@ -1,4 +1,4 @@
-// What patches give to each other: splashes, run-off, snow that slides. One thread, fixed order.
+// What patches give to each other: splashes, run-off, water let in, ponds. One thread, fixed order.
 #ifndef PETRICHOR_WEATHER_PATCHES_DETAIL_PATCH_WATER_H
 #define PETRICHOR_WEATHER_PATCHES_DETAIL_PATCH_WATER_H
 
@@ -10,8 +10,13 @@ namespace petrichor::weather::detail {
 // snow that a slope does not hold and that lands below.
 void share_what_falls(const PatchLive& live, const PatchTables& tables, PatchScratch& scratch);
 
-// Snow that leaves smooth roofs, and heaps that come to rest.
-void slide_snow(PatchLive& live, const PatchTables& tables, PatchScratch& scratch);
+// Water on its way to another patch, a pond, or out of the scene.
+void pour_on(PatchLive& live, const PatchTables& tables, std::uint32_t target, double kg,
+             PatchScratch& scratch);
+
+// Water from taps, on its way over patches and on to ponds. Before run_off.
+void let_water_in(PatchLive& live, const PatchTables& tables, const SkyStep& sky,
+                  const std::vector<PatchTap>& taps, PatchScratch& scratch);
 
 // What the patches shed in a step runs down: each takes what its stores lack and its ground soaks
 // up, and passes on the rest.

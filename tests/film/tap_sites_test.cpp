@@ -1,0 +1,244 @@
+// Taps of a scenario on the ground of a scene.
+#include "film/weather/tap_sites.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "base/error.h"
+#include "film/jobs/scene_places.h"
+#include "film/scenario/scenario.h"
+#include "film/weather/patch_weather.h"
+#include "tests/film/rain_table.h"
+
+namespace petrichor::film {
+namespace {
+
+void add_quad(scene::Scene& scene, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v)
+{
+    scene::Primitive p;
+    const glm::vec3 normal = glm::normalize(glm::cross(u, v));
+    for (const glm::vec2 at :
+         {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+        p.positions.push_back(corner + u * at.x + v * at.y);
+        p.normals.push_back(normal);
+        p.uv0.push_back(at);
+    }
+    p.indices = {0, 1, 2, 0, 2, 3};
+    p.material = 0;
+    scene.meshes.front().primitives.push_back(std::move(p));
+}
+
+// A street of 12 x 8 m that falls from x = -6 to x = 2, and beyond it rises as far: a trough along z,
+// closed by walls of ground at both ends.
+scene::Scene valley()
+{
+    scene::Scene scene;
+    scene::Material m;
+    m.name = "asphalt";
+    m.base_color = glm::vec4(0.2f, 0.2f, 0.2f, 1.0f);
+    m.metallic = 0.0f;
+    scene.materials.push_back(m);
+    scene.meshes.emplace_back();
+    scene.instances.push_back({"valley", 0, glm::mat4(1.0f)});
+    add_quad(scene, {-6, 0.4f, 4}, {8, -0.4f, 0}, {0, 0, -8});
+    add_quad(scene, {2, 0, 4}, {4, 0.4f, 0}, {0, 0, -8});
+    add_quad(scene, {-6, 0.4f, 5}, {12, 0, 0}, {0, 0, -1});
+    add_quad(scene, {-6, 0.4f, -4}, {12, 0, 0}, {0, 0, -1});
+    return scene;
+}
+
+struct Valley {
+    scene::Scene scene = valley();
+    scene::Triangles triangles{scene, {}};
+    scene::Tracer tracer{triangles};
+    scene::Patches patches;
+    std::vector<scene::PatchSurface> surfaces;
+
+    Valley()
+    {
+        scene::PatchOptions options;
+        options.cell_m = 0.5f;
+        options.rays = 64;
+        patches = scene::build_patches(tracer, options);
+        surfaces = scene::patch_surfaces(patches, triangles, {});
+    }
+    SceneSites sites(const std::vector<ScenarioTap>& taps) const
+    {
+        ScenarioGround keys;
+        keys.taps = taps;
+        return scene_sites(scene, patches, tracer, surfaces, keys,
+                           weather::surface_preset("asphalt"));
+    }
+};
+
+ScenarioTap tap_at(double x_m, double z_m, double litres_per_min = 12.0)
+{
+    ScenarioTap tap;
+    tap.x_z_m = {x_m, z_m};
+    tap.litres_per_min = litres_per_min;
+    return tap;
+}
+
+TEST(TapSites, WaterRunsStraightDownToTheHollow)
+{
+    const Valley place;
+    const SceneSites sites = place.sites({tap_at(-3.3, 1.2)});
+    ASSERT_EQ(sites.taps.size(), 1u);
+    const weather::PatchTap& tap = sites.taps[0].tap;
+    EXPECT_NEAR(tap.flow_kg_s, 0.2, 1e-12);
+    ASSERT_NE(tap.runs_to, weather::kRunsOut);
+    ASSERT_NE(tap.runs_to & weather::kToPond, 0u);
+    // Five metres in patches of about one, from the tap to the bottom of the trough, each lower.
+    EXPECT_GE(tap.way.size(), 5u);
+    EXPECT_LE(tap.way.size(), 12u);
+    EXPECT_NEAR(place.patches.position_m[tap.way.front()].x, -3.3f, 0.8f);
+    EXPECT_NEAR(place.patches.position_m[tap.way.back()].x, 2.0f, 0.8f);
+    for (std::size_t i = 0; i < tap.way.size(); ++i) {
+        const glm::vec3 at = place.patches.position_m[tap.way[i]];
+        EXPECT_NEAR(at.z, 1.2f, 0.6f) << i;
+        EXPECT_GT(at.x, -4.0f);
+        EXPECT_LT(at.x, 2.6f);
+        if (i > 0) {
+            EXPECT_LE(at.y, place.patches.position_m[tap.way[i - 1]].y + 0.03f) << i;
+        }
+    }
+    const std::set<std::uint32_t> once(tap.way.begin(), tap.way.end());
+    EXPECT_EQ(once.size(), tap.way.size());
+}
+
+TEST(TapSites, WaterFindsItsWayOverLevelGround)
+{
+    // Steps down to the right: 3 3 3 2 2 1 between solid rims, two cells high.
+    SceneGround ground;
+    ground.field.width = 8;
+    ground.field.depth = 4;
+    const float inf = scene::kSolid_m;
+    ground.field.height_m = {inf, inf, inf, inf, inf, inf, inf, inf,  //
+                             inf, 3,   3,   3,   2,   2,   1,   inf,  //
+                             inf, 3,   3,   3,   2,   2,   2,   inf,  //
+                             inf, inf, inf, inf, inf, inf, inf, inf};
+    ground.basins = scene::find_basins(ground.field);
+    const auto way = way_of_water(ground, ground.field.cell_of(1, 2));
+    ASSERT_EQ(way.size(), 6u);
+    EXPECT_EQ(way.back(), ground.field.cell_of(6, 1));
+    for (std::size_t i = 1; i < way.size(); ++i)
+        EXPECT_LE(ground.field.height_m[way[i]], ground.field.height_m[way[i - 1]]);
+    EXPECT_EQ(way_of_water(ground, way.back()), std::vector<std::size_t>{way.back()});
+}
+
+TEST(TapSites, AHollowFillsInADryDay)
+{
+    const Valley place;
+    const auto dry = rain_table(30, 0.0, 0.0, 0.0);
+    ScenarioTap tap = tap_at(-3.3, 1.2, 30.0);
+    tap.from_s = 3600.0;
+    tap.to_s = 4.5 * 3600.0;
+    const SceneSites sites = place.sites({tap});
+    weather::PatchParams params;
+    const std::int64_t start_us = dry.time_us.front();
+    params.taps = taps_of_run(sites.taps, [&](double time_s) {
+        return start_us + static_cast<std::int64_t>(time_s * 1e6);
+    });
+    PlaceWeatherOfFile run(sites, dry, params, start_us);
+    const auto before = run.at(dry.time_us[1]);
+    EXPECT_EQ(run.sums().books.let_in, 0.0);
+    EXPECT_EQ(run.sums().ponds_m3, 0.0);
+    const auto after = run.at(dry.time_us[6]);
+    const PlaceSums sums = run.sums();
+    EXPECT_NEAR(sums.books.let_in, 30.0 * 3.5 * 60.0, 1e-6);  // litres are kilograms
+    EXPECT_EQ(sums.books.fallen, 0.0);
+    EXPECT_GT(sums.ponds_m3, 5.5);
+    EXPECT_LE(std::abs(sums.books.residual()), 1e-9 * sums.books.let_in);
+    const std::uint32_t pond = sites.taps[0].tap.runs_to & ~weather::kToPond;
+    EXPECT_GT(after->levels_m[pond + 1], before->levels_m[pond + 1] + 0.1f);
+    // The way is wet, the ground above the tap is dry.
+    const auto film = [&](std::uint32_t patch) {
+        return after->states[patch * PLACE_STATE_TEXELS + 2].x;
+    };
+    EXPECT_GT(film(sites.taps[0].tap.way[2]), 0.2f);
+    for (std::uint32_t i = 0; i < place.patches.count; ++i)
+        if (place.patches.position_m[i].x < -4.0f) {
+            EXPECT_EQ(film(i), 0.0f) << i;
+        }
+}
+
+TEST(TapSites, OutsideOfTheGroundTheyAreRefused)
+{
+    const Valley place;
+    EXPECT_THROW(place.sites({tap_at(500.0, 0.0)}), Error);
+    EXPECT_THROW(place.sites({tap_at(0.0, -7.0)}), Error);
+    EXPECT_NO_THROW(place.sites({tap_at(0.0, 0.0)}));
+    SceneGround nothing;
+    EXPECT_THROW(tap_sites({tap_at(0.0, 0.0)}, nothing, place.patches), Error);
+}
+
+std::string error_of(const std::string& ground)
+{
+    try {
+        parse_scenario("[scene]\nfile = \"demo:street\"\n" + ground, "s.toml");
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(GroundKeys, TapsAndDrainsAreTables)
+{
+    const Scenario s = parse_scenario(
+        "[scene]\nfile = \"demo:street\"\n[ground]\ndrains = [[1.0, 2.0, 0.3]]\n"
+        "[[ground.drain]]\nx_z_m = [4.0, -5.0]\nradius_m = 0.2\n"
+        "[[ground.drain]]\nx_z_m = [0.0, 1.0]\n"
+        "[[ground.tap]]\nx_z_m = [2.0, -1.5]\nlitres_per_min = 20.0\nto_s = 600.0\n",
+        "s.toml");
+    const std::set<std::vector<double>> drains = [&] {
+        std::set<std::vector<double>> all;
+        for (const glm::dvec3& d : s.ground.drains) all.insert({d.x, d.y, d.z});
+        return all;
+    }();
+    EXPECT_EQ(drains, (std::set<std::vector<double>>{
+                          {1.0, 2.0, 0.3}, {4.0, -5.0, 0.2}, {0.0, 1.0, 0.0}}));
+    ASSERT_EQ(s.ground.taps.size(), 1u);
+    EXPECT_EQ(s.ground.taps[0].x_z_m, glm::dvec2(2.0, -1.5));
+    EXPECT_EQ(s.ground.taps[0].litres_per_min, 20.0);
+    EXPECT_FALSE(s.ground.taps[0].from_s.has_value());
+    EXPECT_EQ(s.ground.taps[0].to_s, 600.0);
+}
+
+TEST(GroundKeys, WhatATapCannotBeIsRefused)
+{
+    const std::string tap = "[[ground.tap]]\nx_z_m = [2.0, -1.5]\n";
+    EXPECT_EQ(error_of(tap + "litres_per_min = 1.0\n"), "");
+    for (const char* flow : {"-1.0", "nan", "inf", "\"much\""})
+        EXPECT_NE(error_of(tap + "litres_per_min = " + flow + "\n"), "") << flow;
+    EXPECT_NE(error_of(tap), "");
+    EXPECT_NE(error_of("[[ground.tap]]\nlitres_per_min = 1.0\n"), "");
+    EXPECT_NE(error_of("[[ground.tap]]\nx_z_m = [nan, 0.0]\nlitres_per_min = 1.0\n"), "");
+    EXPECT_NE(error_of(tap + "litres_per_min = 1.0\nfrom_s = 5.0\nto_s = 4.0\n"), "");
+    EXPECT_NE(error_of(tap + "litres_per_minute = 1.0\n"), "");
+    EXPECT_NE(error_of("[[ground.drain]]\nx_z_m = [0.0, 0.0]\nradius_m = -1.0\n"), "");
+    EXPECT_NE(error_of("[[ground.drain]]\nradius_m = 1.0\n"), "");
+}
+
+TEST(GroundKeys, ATapWithoutPatchesUnderAWeatherFileIsSaid)
+{
+    const auto says_so = [](const std::string& text) {
+        const Sequence sequence = make_sequence(parse_scenario(text, "s.toml"));
+        std::vector<std::string> notes;
+        const ScenePlaces places(sequence, 1, {}, {}, notes);
+        return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
+            return note.find("no water runs") != std::string::npos;
+        });
+    };
+    const std::string preset = "[weather]\npreset = \"storm\"\n";
+    const std::string tap = "[[ground.tap]]\nx_z_m = [0.0, 0.0]\nlitres_per_min = 1.0\n";
+    EXPECT_EQ(says_so(preset), 0);
+    EXPECT_EQ(says_so(preset + tap), 1);
+    EXPECT_EQ(says_so(preset + "[ground]\npatches = false\n" + tap), 1);
+}
+
+}  // namespace
+}  // namespace petrichor::film

@@ -1,0 +1,310 @@
+// Snow that slides from roofs and snow that the wind carries.
+#include "weather/patches/moving_snow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/weather/street.h"
+#include "weather/patches/patch_weather.h"
+
+namespace petrichor::weather {
+namespace {
+
+using testing_weather::refill;
+using testing_weather::steady;
+using testing_weather::Street;
+
+TEST(SlidePull, GrowsWithTheSlopeAndWithSmoothness)
+{
+    EXPECT_NEAR(slide_pull(30.0, 15.0), std::tan(15.0 * kPi / 180.0), 1e-12);
+    EXPECT_NEAR(slide_pull(90.0, 40.0), 1.0, 1e-12);
+    EXPECT_EQ(slide_pull(14.9, 15.0), 0.0);
+    EXPECT_EQ(slide_pull(0.0, 15.0), 0.0);
+    for (int tilt = 16; tilt < 90; ++tilt) {
+        EXPECT_GT(slide_pull(tilt, 15.0), slide_pull(tilt - 1, 15.0));
+        EXPECT_LT(slide_pull(tilt, 15.0), slide_pull(tilt, 14.0));
+    }
+}
+
+TEST(BlowingSnow, IsThatOfPomeroyAndGray)
+{
+    EXPECT_NEAR(saltation_kg_m_s(0.4, 0.25, 1.3), 5.49e-3, 5e-6);
+    EXPECT_EQ(saltation_kg_m_s(0.25, 0.25, 1.3), 0.0);
+    EXPECT_EQ(saltation_kg_m_s(0.1, 0.25, 1.3), 0.0);
+    EXPECT_NEAR(snow_friction_m_s(10.0), 0.4343, 1e-4);
+    EXPECT_EQ(snow_friction_m_s(0.0), 0.0);
+}
+
+// What came to a patch from others, kg/m2: what it holds less what fell and what left it.
+double came_from_elsewhere(const PatchState& s)
+{
+    const CellState& c = s.cell;
+    return stored_mass_kg_m2(c) + c.total_evaporation + c.total_sublimation +
+           c.total_infiltration + c.total_drainage - c.total_precip;
+}
+
+// A roof of columns, each from the ridge down to ground of its own.
+struct Roof {
+    std::size_t columns, rows;
+    Street street;
+    std::vector<std::uint32_t> on_roof;  // by column, from the ridge down
+
+    Roof(double tilt_deg, double rest_deg, std::size_t columns_, std::size_t rows_)
+        : columns(columns_), rows(rows_)
+    {
+        const double tilt = tilt_deg * kPi / 180.0;
+        street.set.kinds[2].slides_above_deg = rest_deg;
+        const auto number = [&](std::size_t c, std::size_t r) {
+            return static_cast<std::uint32_t>(c * (rows + 1) + r);
+        };
+        std::vector<std::uint32_t>& begin = street.set.beside_begin;
+        begin = {0};
+        for (std::size_t c = 0; c < columns; ++c) {
+            for (std::size_t r = 0; r < rows; ++r) {
+                WeatherPatch& p = street.add({std::sin(tilt), std::cos(tilt), 0}, 2);
+                p.height_m = 10.0 - 0.5 * static_cast<double>(r);
+                p.runs_to = number(c, r + 1);
+                on_roof.push_back(number(c, r));
+                const auto beside = [&](std::size_t to_c, std::size_t to_r) {
+                    street.set.beside.push_back(number(to_c, to_r));
+                    street.set.beside_m.push_back(1.0f);
+                };
+                if (r > 0) beside(c, r - 1);
+                if (r + 1 < rows) beside(c, r + 1);
+                if (c > 0) beside(c - 1, r);
+                if (c + 1 < columns) beside(c + 1, r);
+                begin.push_back(static_cast<std::uint32_t>(street.set.beside.size()));
+            }
+            street.add().area_m2 = 4.0;
+            begin.push_back(static_cast<std::uint32_t>(street.set.beside.size()));
+        }
+    }
+};
+
+// 20 hours of snow in frost, then a thaw from hour 30 on.
+ForcingTable winter_and_thaw(double thaw_c = 5.0)
+{
+    ForcingTable table = steady(60, -2.0, 0.0, 1.0, 240, 1.0);
+    for (std::size_t i = 0; i < 20; ++i) table[Field::Precip][i] = 2.0 / 3600.0;
+    for (std::size_t i = 30; i < table.rows(); ++i)
+        table[Field::AirTemp][i] = kZeroCelsiusK + thaw_c;
+    refill(table);
+    return table;
+}
+
+double snow_on(const PatchWeather& patches, std::size_t i)
+{
+    return diagnostics(patches.state(i).cell).swe_kg_m2;
+}
+
+// The hour at which a patch was first seen without most of its snow; 60: never.
+std::vector<double> hours_of_sliding(const Roof& roof, const ForcingTable& table)
+{
+    PatchWeather patches(table, roof.street.set, {}, table.time_us.front());
+    patches.go_to(table.time_us[29]);
+    std::vector<double> full, hours(roof.on_roof.size(), 60.0);
+    for (const std::uint32_t i : roof.on_roof) full.push_back(snow_on(patches, i));
+    for (std::size_t hour = 30; hour < 60; ++hour) {
+        patches.go_to(table.time_us[hour]);
+        const PatchLedger books = patches.ledger();
+        EXPECT_LE(std::abs(books.residual()), 1e-9 * books.fallen);
+        for (std::size_t k = 0; k < hours.size(); ++k)
+            if (hours[k] == 60.0 && snow_on(patches, roof.on_roof[k]) < 0.02 * full[k])
+                hours[k] = static_cast<double>(hour);
+    }
+    return hours;
+}
+double mean_of(const std::vector<double>& values)
+{
+    double sum = 0.0;
+    for (const double v : values) sum += v;
+    return sum / static_cast<double>(values.size());
+}
+
+TEST(SlidingSnow, LeavesARoofPartByPartOverHours)
+{
+    const Roof roof(25.0, 15.0, 30, 6);
+    const ForcingTable table = winter_and_thaw();
+    const std::vector<double> hours = hours_of_sliding(roof, table);
+    const auto [first, last] = std::minmax_element(hours.begin(), hours.end());
+    EXPECT_GE(*first, 31.0);  // the base has to be wet
+    EXPECT_GE(*last - *first, 4.0);
+    for (double hour = 30.0; hour < 60.0; hour += 1.0) {
+        const auto at_once = std::count(hours.begin(), hours.end(), hour);
+        EXPECT_LT(static_cast<double>(at_once), 0.6 * static_cast<double>(hours.size())) << hour;
+    }
+    // A slab takes along what lies below it: whoever is bare has nobody with snow below.
+    for (std::size_t c = 0; c < roof.columns; ++c)
+        for (std::size_t r = 1; r < roof.rows; ++r)
+            EXPECT_LE(hours[c * roof.rows + r], hours[c * roof.rows + r - 1]) << c << " " << r;
+    // It goes in pieces, not patch by patch: neighbours along the eaves often go in the same hour.
+    int together = 0;
+    for (std::size_t c = 1; c < roof.columns; ++c)
+        together += hours[c * roof.rows + 5] == hours[(c - 1) * roof.rows + 5] ? 1 : 0;
+    EXPECT_GE(together, 8);
+    EXPECT_LT(together, 25);
+}
+
+TEST(SlidingSnow, LiesBelowTheEavesAfterwards)
+{
+    const Roof roof(35.0, 15.0, 6, 4);
+    const ForcingTable table = winter_and_thaw();
+    PatchWeather patches(table, roof.street.set, {}, table.time_us.front());
+    PatchSet rough = roof.street.set;
+    for (PatchKind& kind : rough.kinds) kind.slides_above_deg = 90.0;
+    PatchWeather stays(table, rough, {}, table.time_us.front());
+    patches.go_to(table.time_us[45]);
+    stays.go_to(table.time_us[45]);
+    double gone = 0.0, more = 0.0;
+    for (std::size_t i = 0; i < patches.patches(); ++i) {
+        const double area = roof.street.set.patches[i].area_m2;
+        const double came = came_from_elsewhere(patches.state(i)) * area;
+        (came < 0.0 ? gone : more) += came;
+        // What a roof sheds as water comes too; without slides no ground has more than that.
+        if (i % 5 == 4) {
+            EXPECT_GT(snow_on(patches, i), snow_on(stays, i) + 1.0) << i;
+        }
+    }
+    EXPECT_LT(gone, -100.0);
+    const PatchLedger books = patches.ledger();
+    EXPECT_LE(std::abs(books.residual()), 1e-9 * books.fallen);
+}
+
+TEST(SlidingSnow, SteeperAndSmootherRoofsGoFirstAndFlatterThanTheirRestNever)
+{
+    const ForcingTable table = winter_and_thaw();
+    const auto mean_hour = [&](double tilt_deg, double rest_deg) {
+        // One row: none is taken along by another.
+        return mean_of(hours_of_sliding(Roof(tilt_deg, rest_deg, 64, 1), table));
+    };
+    const double flat = mean_hour(20.0, 15.0), middle = mean_hour(27.0, 15.0),
+                 steep = mean_hour(40.0, 15.0), rough = mean_hour(40.0, 30.0);
+    EXPECT_LT(steep, middle - 0.5);
+    EXPECT_LT(middle, flat - 0.5);
+    EXPECT_LT(steep, rough - 0.5);
+    // At their angle of rest and below they keep what a roof that sheds nothing keeps.
+    for (const double tilt : {10.0, 15.0}) {
+        const Roof roof(tilt, 15.0, 4, 2), holds(tilt, 90.0, 4, 2);
+        PatchWeather patches(table, roof.street.set, {}, table.time_us.front());
+        PatchWeather same(table, holds.street.set, {}, table.time_us.front());
+        patches.go_to(table.time_us[50]);
+        same.go_to(table.time_us[50]);
+        for (const std::uint32_t i : roof.on_roof)
+            EXPECT_EQ(snow_on(patches, i), snow_on(same, i)) << tilt;
+    }
+}
+
+TEST(SlidingSnow, HoldsWhileItsBaseIsFrozen)
+{
+    ForcingTable table = steady(60, -6.0, 0.0, 1.0, 240, 1.0);
+    for (std::size_t i = 0; i < 20; ++i) table[Field::Precip][i] = 2.0 / 3600.0;
+    refill(table);
+    std::fill(table[Field::Shortwave].begin(), table[Field::Shortwave].end(), 0.0);
+    const Roof roof(45.0, 15.0, 6, 4);
+    PatchWeather patches(table, roof.street.set, {}, table.time_us.front());
+    patches.go_to(table.time_us[59]);
+    for (const std::uint32_t i : roof.on_roof) EXPECT_GT(snow_on(patches, i), 5.0) << i;
+}
+
+// A square of open ground, four patches behind a wall in the west.
+PatchSet square(bool wall)
+{
+    Street street;
+    for (int i = 0; i < 24; ++i) {
+        WeatherPatch& p = street.add();
+        p.area_m2 = 10.0;
+        if (!wall || i < 20) continue;
+        for (int k = 0; k < kVisibleBits; ++k) {
+            const Direction d = visible_direction(k);
+            if (d.x < 0.0 && d.y < 0.5)
+                p.visible[static_cast<std::size_t>(k >> 5)] &= ~(1u << (k & 31));
+        }
+    }
+    return street.set;
+}
+// Snow in a calm, then wind.
+ForcingTable blizzard(double wind_m_s, double from_deg, double air_c = -8.0)
+{
+    ForcingTable table = steady(40, air_c, 0.0, 1.0, from_deg, 1.0);
+    for (std::size_t i = 0; i < 20; ++i) table[Field::Precip][i] = 1.0 / 3600.0;
+    for (std::size_t i = 22; i < table.rows(); ++i) table[Field::Wind][i] = wind_m_s;
+    refill(table);
+    std::fill(table[Field::Shortwave].begin(), table[Field::Shortwave].end(), 0.0);
+    return table;
+}
+
+TEST(DriftingSnow, GoesFromTheOpenIntoTheLeeAndNoneIsLost)
+{
+    const ForcingTable table = blizzard(14.0, 270.0);
+    PatchWeather patches(table, square(true), {}, table.time_us.front());
+    patches.go_to(table.time_us[38]);
+    double came = 0.0, moved = 0.0;
+    for (std::size_t i = 0; i < patches.patches(); ++i) {
+        const double here = came_from_elsewhere(patches.state(i));
+        came += here * 10.0;
+        moved += std::abs(here) * 5.0;
+        if (i < 20) {
+            EXPECT_LT(here, -0.5) << i;
+        } else {
+            EXPECT_GT(here, 2.0) << i;
+        }
+    }
+    EXPECT_GT(moved, 50.0);
+    EXPECT_NEAR(came, 0.0, 1e-9 * moved);
+    const PatchLedger books = patches.ledger();
+    EXPECT_LE(std::abs(books.residual()), 1e-9 * books.fallen);
+    EXPECT_GT(diagnostics(patches.state(22).cell).snow_depth_m,
+              1.5 * diagnostics(patches.state(3).cell).snow_depth_m);
+    // The wall is no lee when the wind comes from the other side.
+    const ForcingTable east = blizzard(14.0, 90.0);
+    PatchWeather other(east, square(true), {}, east.time_us.front());
+    other.go_to(east.time_us[38]);
+    for (std::size_t i = 0; i < other.patches(); ++i)
+        EXPECT_NEAR(came_from_elsewhere(other.state(i)), 0.0, 1e-9) << i;
+}
+
+TEST(DriftingSnow, LiesStillInCalmAndWhereThereIsNoLeeAndWhenItIsWet)
+{
+    const auto nothing_moves = [](const ForcingTable& table, bool wall) {
+        PatchWeather patches(table, square(wall), {}, table.time_us.front());
+        patches.go_to(table.time_us[38]);
+        for (std::size_t i = 0; i < patches.patches(); ++i)
+            EXPECT_NEAR(came_from_elsewhere(patches.state(i)), 0.0, 1e-9) << i;
+    };
+    nothing_moves(blizzard(0.0, 270.0), true);
+    nothing_moves(blizzard(7.0, 270.0), true);  // Li & Pomeroy: 8.2 m/s at -8 C
+    nothing_moves(blizzard(14.0, 270.0), false);
+    ForcingTable thaw = blizzard(9.6, 270.0, -0.5);
+    for (std::size_t i = 20; i < thaw.rows(); ++i) {
+        thaw[Field::AirTemp][i] = kZeroCelsiusK + 3.0;
+        if (i < 34) thaw[Field::Wind][i] = 1.0;
+    }
+    refill(thaw);
+    nothing_moves(thaw, true);
+}
+
+TEST(DriftingSnow, IsDefinedInAHurricane)
+{
+    for (const double wind : {30.0, 60.0}) {
+        const ForcingTable table = blizzard(wind, 270.0, -15.0);
+        PatchWeather patches(table, square(true), {}, table.time_us.front());
+        patches.go_to(table.time_us[39] + 17 * 60 * 1000000LL);
+        for (std::size_t i = 0; i < patches.patches(); ++i) {
+            const CellState c = patches.state(i).cell;
+            EXPECT_TRUE(std::isfinite(c.surface_temp_c));
+            for (std::size_t k = 0; k < kSnowLayers; ++k) {
+                EXPECT_GE(c.snow_ice[k], 0.0);
+                EXPECT_GE(c.snow_thickness[k], 0.0);
+                EXPECT_TRUE(std::isfinite(c.snow_temp_c[k]));
+            }
+        }
+        const PatchLedger books = patches.ledger();
+        EXPECT_LE(std::abs(books.residual()), 1e-9 * books.fallen);
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::weather
