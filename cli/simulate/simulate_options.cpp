@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "weather/readers/formats.h"
+
 namespace petrichor::cli {
 namespace {
 
@@ -13,17 +15,33 @@ CLI::Option* add(CLI::App& command, const char* group, const char* name, const c
     return command.add_option(name, value, help)->group(group)->type_name(type);
 }
 
+// The kinds of files that are read, in lines of a page of help.
+std::string weather_kinds()
+{
+    constexpr std::size_t kWidth = 78;
+    std::string all, line;
+    const auto add_word = [&](const std::string& word) {
+        if (!line.empty() && line.size() + 2 + word.size() > kWidth) {
+            all += line + ",\n";
+            line.clear();
+        }
+        line += (line.empty() ? "" : ", ") + word;
+    };
+    for (const weather::Reader* reader : weather::weather_readers()) add_word(reader->name);
+    for (const char* other : {"NetCDF", "GRIB", "and .gz or .zip of all of these"})
+        add_word(other);
+    return all + line + ";";
+}
+
 void add_input(CLI::App& command, SimulateOptions& o)
 {
     const char* group = "Input";
     command
         .add_option(
             "INPUT", o.inputs,
-            "weather files of one place (the kind is found from the content: EPW, TMY3, "
-            "PVGIS,\nNSRDB, Open-Meteo, METAR/TAF, SMET, ISD-Lite, GHCN-daily, SURFRAD, FSM, CSV "
-            "with units),\nor CSV keys of the artist model "
-            "(time_s,temperature_c,rainfall; - is standard input),\nor a weather TOML, or "
-            "a preset")
+            "weather files of one place (the kind is found from the content):\n" + weather_kinds() +
+                "\nor CSV keys of the artist model (time_s,temperature_c,rainfall; - is standard "
+                "input),\nor a weather TOML, or a preset")
         ->type_name("");
     command.add_flag("--list", o.list, "list the presets")->group(group);
     add(command, group, "--interp", "WORD", o.interpolation,
@@ -31,7 +49,7 @@ void add_input(CLI::App& command, SimulateOptions& o)
         ->check(CLI::IsMember({"hold", "linear", "smooth"}));
     SiteOptions& site = o.physical.site;
     add(command, group, "--station", "CODE", site.station,
-        "of a METAR file (default: the one with most reports)");
+        "of a file with several; METAR: default the one with most reports");
     add(command, group, "--month", "YYYY-MM", site.month,
         "of METAR reports, which say only the day");
     add(command, group, "--taf", "WORD", site.taf,

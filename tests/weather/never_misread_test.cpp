@@ -85,6 +85,16 @@ TEST(NeverMisread, APlaceThatDoesNotExistIsAnError)
                 testing::AllOf(HasSubstr("95"), HasSubstr("--latitude")));
 }
 
+// What a person gave is not blamed on the file.
+TEST(NeverMisread, APlaceThatWasGivenAndDoesNotExistIsSaidToBe)
+{
+    ReadOptions options;
+    options.site.latitude_deg = 95.0;
+    EXPECT_THAT(refusal("time,air_temp_c\n2024-01-01T00:00,-1\n", options),
+                testing::AllOf(HasSubstr("the latitude that was given, 95, is outside -90..90"),
+                               HasSubstr("Mend --latitude."), Not(HasSubstr("file"))));
+}
+
 TEST(NeverMisread, AYearWithoutADropWasNotMeasured)
 {
     std::string text = "time,air_temp_c,precip_mm,wind_m_s\n";
@@ -364,7 +374,8 @@ TEST(EverySample, OfCommasReadsTheSameWithASpreadsheetsSeparators)
     int read = 0;
     for (const char* name : {"typical_year.epw", "typical_year_tmy3.csv", "nsrdb.csv", "pvgis.csv",
                              "midc.csv", "open_meteo.csv", "noaa_global_hourly.csv", "lcd.csv",
-                             "environment_canada.csv", "meteostat.csv"}) {
+                             "environment_canada.csv", "meteostat.csv", "openweather.csv",
+                             "nasa_power.csv", "fluxnet_hh.csv", "gsod.csv"}) {
         const std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / name);
         ReadOptions options;
         options.ignore = {"all"};
@@ -400,7 +411,7 @@ TEST(EverySample, OfCommasReadsTheSameWithASpreadsheetsSeparators)
             ++read;
         }
     }
-    EXPECT_EQ(read, 20);
+    EXPECT_EQ(read, 28);
     EXPECT_EQ(sample("dwd_temperature.txt").report.format, "DWD") << "whose cells are apart so";
 }
 

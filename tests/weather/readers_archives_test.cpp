@@ -40,6 +40,29 @@ TEST(GlobalHourly, CodedGroups)
     EXPECT_THAT(notes(report), HasSubstr("1 sums of days"));
 }
 
+// A station that moves has no place: what is lacking is asked for, and nothing that was given.
+TEST(GlobalHourly, AsksForWhatOfThePlaceWasNotGiven)
+{
+    std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / "noaa_global_hourly.csv");
+    const std::string place = "\"40.7792\",\"-73.8800\",\"3.4\"",
+                      nowhere = "\"0.0\",\"0.0\",\"7026.0\"";
+    ASSERT_NE(text.find(place), std::string::npos);
+    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place))
+        text.replace(at, place.size(), nowhere);
+    const auto told = [&](const Site& site) {
+        ReadOptions options;
+        options.site = site;
+        return notes(raw(text, options).report);
+    };
+    EXPECT_THAT(told({}), HasSubstr("warning line 2 place: 0 N 0 E at 7026.0 m is no place of a "
+                                    "station: give latitude, longitude, elevation"));
+    EXPECT_THAT(told({.latitude_deg = 34.0, .longitude_deg = 69.0}),
+                HasSubstr("of a station: give elevation"));
+    EXPECT_THAT(told({.latitude_deg = 34.0, .longitude_deg = 69.0, .elevation_m = 1500.0}),
+                HasSubstr("info line 2 place: 0 N 0 E at 7026.0 m is no place of a station: that "
+                          "which is given is taken"));
+}
+
 TEST(GlobalHourly, PresentWeatherTellsThePhase)
 {
     const auto table = sample("noaa_global_hourly.csv").table;

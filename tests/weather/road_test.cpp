@@ -1,6 +1,7 @@
 // Roads: layers, bridges, the measured start, traffic, ploughs, friction, METRo's files.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -294,10 +295,10 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     // At -5 C with a dew point of -6 the air says more than half a cover.
     const double air = cloud_of_humidity(rel_humidity_of_dew_point_pct(268.15, 267.15));
     EXPECT_GT(air, 0.9);
-    const double before = air - (air - 0.1) * std::exp(-2.0 / kCloudMemory_h);
+    const double before = air - (air - 0.1) * std::exp(-2.0 / kForecastCloudMemory_h);
     EXPECT_NEAR(t[Field::Cloud][0], before, 1e-12);
     EXPECT_EQ(t[Field::Cloud][1], 1.0);
-    EXPECT_NEAR(t[Field::Cloud][2], 0.1 + 0.9 * std::exp(-1.0 / kCloudMemory_h), 1e-12);
+    EXPECT_NEAR(t[Field::Cloud][2], 0.1 + 0.9 * std::exp(-1.0 / kRainCloudMemory_h), 1e-12);
     EXPECT_EQ(t[Field::Cloud][5], 0.1);
     EXPECT_EQ(t[Field::AirTemp][0], 268.15);
     EXPECT_EQ(t[Field::AirTemp][5], 270.15);
@@ -309,6 +310,45 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     MetroObservation dry = o;
     dry.table[Field::DewPoint].assign(o.table.rows(), kMissing);
     EXPECT_EQ(observed_weather(dry, silent)[Field::Cloud][0], 0.5);
+}
+
+// Rain of measured hours: the station's word, where its air can be that of rain, before the forecast's.
+TEST(Metro, RainOfTheMeasuredHours)
+{
+    constexpr double kMm_h = 1.0 / 3600.0;
+    struct Row {
+        const char *air, *dew, *pi;
+        double forecast_mm_h, rain_mm_h;
+    };
+    constexpr Row kRows[] = {{"9", "8.5", "1", 0.0, 1.0},    {"9", "8.5", "1", 3.0, 3.0},
+                             {"9", "6", "1", 0.0, 0.0},      {"1", "0.9", "1", 0.0, 0.0},
+                             {"9", "8.5", "0", 3.0, 0.0},    {"9", "8.5", "9999", 0.5, 0.5},
+                             {"9", "9999", "1", 0.5, 0.5},   {"9", "8.5", "9999", 0.0, 0.0}};
+    std::string text = "<observation><measure-list>";
+    int hour = 0;
+    for (const Row& row : kRows)
+        text += "<measure><observation-time>2004-01-30T0" + std::to_string(hour++) +
+                ":00Z</observation-time><at>" + row.air + "</at><td>" + row.dew +
+                "</td><ws>18</ws><st>3</st><sst>3</sst><pi>" + row.pi + "</pi></measure>";
+    const MetroObservation o = read_metro_observation(text + "</measure-list></observation>");
+    ForcingTable forecast;
+    for (int i = 0; i < 10; ++i) {
+        forecast.time_us.push_back(o.table.time_us[0] + i * kHourUs);
+        forecast[Field::AirTemp].push_back(282.15);
+        forecast[Field::Rain].push_back((i < 8 ? kRows[i].forecast_mm_h : 2.0) * kMm_h);
+        forecast[Field::Snow].push_back(kMm_h);
+    }
+    ForcingTable t = observed_weather(o, forecast);
+    ASSERT_EQ(t.rows(), 10u);
+    for (std::size_t i = 0; i < 8; ++i)
+        EXPECT_NEAR(t[Field::Rain][i] / kMm_h, kRows[i].rain_mm_h, 1e-12) << i;
+    EXPECT_NEAR(t[Field::Rain][9] / kMm_h, 2.0, 1e-12);
+    EXPECT_EQ(*std::max_element(t[Field::Snow].begin(), t[Field::Snow].end()), 0.0);
+    // Hours before the forecast know none of its rain.
+    for (std::int64_t& us : forecast.time_us) us += 6 * kHourUs;
+    t = observed_weather(o, forecast);
+    EXPECT_NEAR(t[Field::Rain][1] / kMm_h, 1.0, 1e-12);
+    EXPECT_EQ(t[Field::Rain][5], 0.0);
 }
 
 }  // namespace

@@ -8,10 +8,15 @@ namespace petrichor::weather {
 
 // The one list. Its order matters: see weather_readers().
 #define PETRICHOR_WEATHER_READERS(add)                                                          \
-    add(metro) add(pvgis_json) add(open_meteo_json) add(smet) add(nsrdb) add(epw) add(pvgis) add(midc)     \
-        add(tmy3) add(tmy2) add(wea) add(open_meteo_csv) add(global_hourly) add(lcd) add(ghcnh) \
-            add(dwd) add(environment_canada) add(meteostat) add(iem) add(isd) add(metar)        \
-                add(ghcn_daily) add(surfrad) add(umep) add(uscrn) add(isd_lite) add(fsm) add(forcing_csv)
+    add(metro) add(pvgis_json) add(visual_crossing_json) add(openweather_json)                  \
+        add(nasa_power_json) add(open_meteo_json) add(smet) add(nsrdb) add(epw) add(pvgis)      \
+            add(midc) add(tmy3) add(tmy2) add(wea) add(open_meteo_csv) add(visual_crossing)     \
+                add(openweather) add(nasa_power) add(fluxnet) add(meteo_france)                 \
+                    add(meteo_france_synop) add(meteoswiss) add(weatherlink)                    \
+                        add(gsod) add(global_hourly) add(lcd) add(ghcnh)  \
+                            add(dwd) add(environment_canada) add(meteostat) add(iem) add(isd)   \
+                                add(metar) add(ghcn_daily) add(surfrad) add(umep) add(uscrn)    \
+                                    add(isd_lite) add(fsm) add(forcing_csv)
 
 #define PETRICHOR_DECLARE(name) extern const Reader name##_reader;
 PETRICHOR_WEATHER_READERS(PETRICHOR_DECLARE)

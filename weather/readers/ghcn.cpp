@@ -11,7 +11,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "weather/physics/constants.h"
+#include "weather/readers/days.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/tables.h"
 #include "weather/readers/text.h"
@@ -263,47 +263,21 @@ static void read_ghcn_daily(std::string_view text, RowCollector& rows, const Rea
     const double longitude = std::isnan(options.site.longitude_deg) ? rows.site().longitude_deg
                                                                     : options.site.longitude_deg;
     const double zone_h = zone_of_longitude_h(longitude);
-    rows.note(ReadNote::Kind::Info, 0, "",
-              "daily values: temperature swings from its minimum at 6 to its maximum at 15 "
-              "o'clock, precipitation is spread over the day");
+    DaysOfWeather of_days;
     for (const auto& [us, day] : days) {
-        const auto next = days.find(us + 86400000000LL);
-        double low = day.low_c, high = day.high_c;
-        if (std::isnan(low) && !std::isnan(day.mean_c)) low = day.mean_c;
-        if (std::isnan(high) && !std::isnan(day.mean_c)) high = day.mean_c;
-        if (std::isnan(low)) low = high;
-        if (std::isnan(high)) high = low;
-        const double low_after =
-            next == days.end() || std::isnan(next->second.low_c) ? low : next->second.low_c;
-        for (int i = 0; i < 8; ++i) {
-            const double hour = 3.0 * i;
-            if (!rows.begin_row(us + static_cast<std::int64_t>((hour - zone_h) * 3600e6), day.line))
-                continue;
-            if (std::isnan(low))
-                rows.missing(Field::AirTemp);
-            else {
-                // Half a cosine up from 6 to 15, half a cosine down from 15 to 6 of the next day.
-                double t = 0.0;
-                if (hour < 6.0)
-                    t = low + 0.5 * (high - low) * (1.0 + std::cos(kPi * (hour + 9.0) / 15.0));
-                else if (hour <= 15.0)
-                    t = low + 0.5 * (high - low) * (1.0 - std::cos(kPi * (hour - 6.0) / 9.0));
-                else
-                    t = low_after +
-                        0.5 * (high - low_after) * (1.0 + std::cos(kPi * (hour - 15.0) / 15.0));
-                rows.set(Field::AirTemp, t + kZeroCelsiusK);
-            }
-            if (std::isnan(day.precip_mm))
-                rows.missing(Field::Precip);
-            else
-                rows.set(Field::Precip, day.precip_mm / 86400.0);
-            // Fresh snow: 10 mm of it hold about 1 mm of water, and no more than fell.
-            if (day.precip_mm > 0.0 && !std::isnan(day.fresh_mm))
-                rows.set(Field::SnowShare, std::min(0.1 * day.fresh_mm / day.precip_mm, 1.0));
-            if (!std::isnan(day.wind_m_s)) rows.set(Field::Wind, day.wind_m_s);
-            if (!std::isnan(day.depth_m)) rows.set(Field::SnowDepth, day.depth_m);
-        }
+        DayOfWeather& d = of_days[us];
+        d.low_c = day.low_c;
+        d.high_c = day.high_c;
+        d.mean_c = day.mean_c;
+        d.precip_mm = day.precip_mm;
+        d.wind_m_s = day.wind_m_s;
+        d.depth_m = day.depth_m;
+        d.line = day.line;
+        // Fresh snow: 10 mm of it hold about 1 mm of water, and no more than fell.
+        if (day.precip_mm > 0.0 && !std::isnan(day.fresh_mm))
+            d.snow_share = std::min(0.1 * day.fresh_mm / day.precip_mm, 1.0);
     }
+    put_days(of_days, zone_h, rows);
 }
 
 namespace {

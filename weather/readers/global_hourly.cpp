@@ -3,6 +3,8 @@
 // weather of their time and are left out.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "weather/readers/formats.h"
 #include "weather/readers/isd_groups.h"
@@ -66,9 +68,16 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
         site.elevation_m = to_number(cell_of(f, header.at("elevation"))).value_or(kMissing);
         site.name = shown(cell_of(f, header.at("name")));
         if (site.latitude_deg == 0.0 && site.longitude_deg == 0.0) {
-            rows.note(ReadNote::Kind::Warning, 2, "place",
+            const Site& given = options.site;
+            std::string lacks;
+            for (const auto& [value, name] :
+                 {std::pair{given.latitude_deg, "latitude"}, {given.longitude_deg, "longitude"},
+                  {given.elevation_m, "elevation"}})
+                if (std::isnan(value)) lacks.append(lacks.empty() ? "" : ", ").append(name);
+            rows.note(lacks.empty() ? ReadNote::Kind::Info : ReadNote::Kind::Warning, 2, "place",
                       "0 N 0 E at " + shown(cell_of(f, header.at("elevation"))) +
-                          " m is no place of a station: give latitude, longitude and elevation");
+                          " m is no place of a station: " +
+                          (lacks.empty() ? "that which is given is taken" : "give " + lacks));
             site.latitude_deg = site.longitude_deg = site.elevation_m = kMissing;
         }
     }

@@ -258,13 +258,29 @@ MetroObservation read_metro_observation(std::string_view text)
     return out;
 }
 
+// Rain of a measured row, kg m-2 s-1: the station's word before the forecast's. It tells no amount,
+// and may stand at 1 for half a day in dry air: rain is what falls warmer than 2 C (phase.all_rain_c)
+// into air that it has nearly filled with vapour.
+static double rain_of(const MetroObservation& observed, std::size_t row, double forecast_kg_m2_s)
+{
+    constexpr double kLightRain_kg_m2_s = 1.0 / 3600.0, kAllRain_k = kZeroCelsiusK + 2.0,
+                     kNearSaturation_k = 2.0;
+    const double falls = observed.falling[row];
+    if (falls == 0.0) return 0.0;
+    const double air_k = observed.table[Field::AirTemp][row],
+                 dew_k = observed.table[Field::DewPoint][row];
+    if (falls == 1.0 && air_k > kAllRain_k && air_k - dew_k <= kNearSaturation_k)
+        return std::max(kLightRain_kg_m2_s, forecast_kg_m2_s);
+    return forecast_kg_m2_s;
+}
+
 ForcingTable observed_weather(const MetroObservation& observed, const ForcingTable& forecast)
 {
     ForcingTable t = observed.table;
     t.site = forecast.site;
     const auto& cloud = forecast[Field::Cloud];
-    const auto kept = [](std::int64_t later_us) {
-        return detail::exponential(static_cast<double>(-later_us) / (kCloudMemory_h * 3600e6));
+    const auto kept = [](std::int64_t later_us, double memory_h) {
+        return detail::exponential(static_cast<double>(-later_us) / (memory_h * 3600e6));
     };
     std::vector<double> humidity;
     for (std::size_t i = 0; i < t.rows(); ++i)
@@ -282,17 +298,24 @@ ForcingTable observed_weather(const MetroObservation& observed, const ForcingTab
             cloud.empty() ? kMissing : cloud[static_cast<std::size_t>(row)];
         if (!std::isnan(forecast_cover)) {
             const std::int64_t before_us = std::max<std::int64_t>(forecast.time_us[0] - now_us, 0);
-            cover += (forecast_cover - cover) * kept(before_us);
+            cover += (forecast_cover - cover) * kept(before_us, kForecastCloudMemory_h);
         }
         if (observed.falling[i] == 1.0) fell_us = now_us;
-        if (fell_us) cover += (1.0 - cover) * kept(now_us - *fell_us);
+        if (fell_us) cover += (1.0 - cover) * kept(now_us - *fell_us, kRainCloudMemory_h);
         t[Field::Cloud].push_back(cover);
+        const bool forecasts = forecast.has(Field::Rain) && now_us >= forecast.time_us[0];
+        t[Field::Rain].push_back(
+            rain_of(observed, i,
+                    forecasts ? forecast[Field::Rain][static_cast<std::size_t>(row)] : 0.0));
+        t[Field::Snow].push_back(0.0);
     }
     for (std::size_t i = 0; i < forecast.rows(); ++i) {
         if (!t.time_us.empty() && forecast.time_us[i] <= t.time_us.back()) continue;
         t.time_us.push_back(forecast.time_us[i]);
         for (const Field f : {Field::AirTemp, Field::DewPoint, Field::Wind, Field::Cloud})
             t[f].push_back(forecast.has(f) ? forecast[f][i] : kMissing);
+        t[Field::Rain].push_back(forecast.has(Field::Rain) ? forecast[Field::Rain][i] : 0.0);
+        t[Field::Snow].push_back(0.0);
     }
     return t;
 }

@@ -8,6 +8,7 @@
 #include "weather/physics/constants.h"
 #include "weather/physics/solar.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/refused_kinds.h"
 #include "weather/readers/text.h"
 #include "weather/text/utf16.h"
 
@@ -226,7 +227,9 @@ namespace {
 bool wants_commas(const Reader& reader)
 {
     for (const char* name : {"NSRDB CSV", "EPW", "PVGIS CSV", "MIDC", "TMY3 CSV", "Open-Meteo CSV",
-                             "NOAA global hourly", "LCD", "Environment Canada", "Meteostat", "IEM"})
+                             "NOAA global hourly", "LCD", "Environment Canada", "Meteostat", "IEM",
+                             "Visual Crossing CSV", "OpenWeather CSV", "NASA POWER CSV", "FLUXNET",
+                             "WeatherLink CSV", "GSOD"})
         if (reader.name == std::string_view(name)) return true;
     return false;
 }
@@ -309,6 +312,7 @@ const Reader& recognise_weather(std::string_view text)
     refuse_binary(text);
     const std::string commas = with_commas(text.substr(0, 1 << 16));
     const FileHead head(commas.empty() ? without_mark(text) : std::string_view(commas));
+    refuse_known_kinds(head);
     for (const Reader* reader : weather_readers()) {
         if (reader->recognise(head)) return *reader;
     }
@@ -355,17 +359,22 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
         site.temp_height_m = options.site.temp_height_m;
         site.wind_height_m = options.site.wind_height_m;
     }
-    const auto check = [&](double value, double low, double high, const char* name,
+    const auto check = [&](double value, double given, double low, double high, const char* name,
                            const char* option) {
         if (std::isnan(value) || (value >= low && value <= high)) return;
         char said[160];
+        if (!std::isnan(given)) {
+            std::snprintf(said, sizeof said, "weather: the %s that was given, %g, is outside %g..%g",
+                          name, value, low, high);
+            throw Error(said, std::string("Mend ") + option + ".");
+        }
         std::snprintf(said, sizeof said, "weather: %s: %s %g is outside %g..%g", reader.name, name,
                       value, low, high);
         throw Error(said, std::string("Mend the file, or give the place with ") + option + ".");
     };
-    check(site.latitude_deg, -90, 90, "latitude", "--latitude");
-    check(site.longitude_deg, -180, 360, "longitude", "--longitude");
-    check(site.elevation_m, -450, 9000, "elevation", "--elevation-m");
+    check(site.latitude_deg, options.site.latitude_deg, -90, 90, "latitude", "--latitude");
+    check(site.longitude_deg, options.site.longitude_deg, -180, 360, "longitude", "--longitude");
+    check(site.elevation_m, options.site.elevation_m, -450, 9000, "elevation", "--elevation-m");
     ReadResult result;
     result.table = rows.finish();
     result.report = std::move(rows.report());

@@ -94,6 +94,14 @@ double zone_of_longitude_h(double longitude_deg)
     return std::round(longitude_deg / 15.0);
 }
 
+void note_unknown_zone(RowCollector& rows, const ReadOptions& options, const char* clock)
+{
+    if (!std::isnan(options.utc_offset_h)) return;
+    rows.note(ReadNote::Kind::Warning, 0, "time",
+              std::string("the file's clock is ") + clock +
+                  ", whose zone it does not name: taken as UTC; --file-zone HOURS says another");
+}
+
 PresentWeather present_weather(std::string_view words)
 {
     if (trimmed(words).empty()) return {};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "weather/readers/collector.h"
+#include "weather/readers/read_weather.h"
 #include "weather/readers/text.h"
 
 // What readers of archive tables (a header of fixed names, a row a time) share.
@@ -68,6 +69,9 @@ double station_pressure_pa(double sea_level_pa, double elevation_m, double air_k
 /// Standard time of the zone that a longitude lies in, whole hours east (Newfoundland's half hour
 /// kept): for files that name local standard time and not the zone. Throws Error outside -180..360.
 double zone_of_longitude_h(double longitude_deg);
+
+/// Says that a file writes the clock of its place and not which one that is, unless --file-zone does.
+void note_unknown_zone(RowCollector& rows, const ReadOptions& options, const char* clock);
 
 /// What present weather in METAR words ("-SN BR", "FZRA") falls as, mm/h.
 struct PresentWeather {

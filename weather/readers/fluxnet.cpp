@@ -1,0 +1,164 @@
+// FLUXNET2015 and what came after it (FULLSET and SUBSET, half hours HH and hours HR), and AmeriFlux
+// BASE, whose names have no _F and positions such as _1_1_1 behind them. TIMESTAMP_START and
+// TIMESTAMP_END, local standard time; -9999 is missing. C, hPa (VPD), kPa, W/m2, m/s, mm of the
+// interval. Values are means of their interval. Neither the place nor its zone is in the file.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/humidity.h"
+#include "weather/readers/csv_times.h"
+#include "weather/readers/formats.h"
+#include "weather/readers/tables.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+struct Quantity {
+    std::vector<const char*> names;  // gap-filled first
+    Field field;
+    double scale, offset;
+};
+const std::vector<Quantity>& quantities()
+{
+    static const std::vector<Quantity> kAll = {
+        {{"ta_f", "ta_f_mds", "ta"}, Field::AirTemp, 1.0, kZeroCelsiusK},
+        {{"rh"}, Field::RelHumidity, 1.0, 0.0},
+        {{"ws_f", "ws"}, Field::Wind, 1.0, 0.0},
+        {{"wd"}, Field::WindFrom, 1.0, 0.0},
+        {{"pa_f", "pa"}, Field::Pressure, 1000.0, 0.0},
+        {{"sw_in_f", "sw_in_f_mds", "sw_in"}, Field::Shortwave, 1.0, 0.0},
+        {{"lw_in_f", "lw_in_f_mds", "lw_in"}, Field::Longwave, 1.0, 0.0},
+        {{"sw_dif"}, Field::Diffuse, 1.0, 0.0},
+        {{"sw_out"}, Field::Reflected, 1.0, 0.0},
+        {{"d_snow"}, Field::SnowDepth, 0.01, 0.0},
+    };
+    return kAll;
+}
+
+// "ta_1_1_1" is ta at the first place, height and of the first instrument, as is plain "ta".
+std::size_t column_of(const TableHeader& header, const std::string& name)
+{
+    if (header.has(name)) return header.at(name);
+    return header.at(name + "_1_1_1");
+}
+
+void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
+{
+    Lines lines(text);
+    std::string_view names = lines.next().value_or("");
+    while (!names.empty() && trimmed(names).front() == '#') {
+        const std::size_t site = names.find("Site:");
+        if (site != names.npos) rows.site().name = shown(trimmed(names.substr(site + 5)));
+        names = lines.next().value_or("");
+    }
+    const TableHeader header(names, ',');
+    if (!header.has("timestamp_start"))
+        throw Error("weather: FLUXNET: this file holds days, weeks, months or years",
+                    "Take the file of half hours (HH) or hours (HR) of the same download.");
+    const std::size_t begin = header.at("timestamp_start"), end = header.at("timestamp_end");
+    struct Column {
+        const Quantity* quantity;
+        std::size_t at;
+    };
+    std::vector<Column> columns;
+    for (const Quantity& q : quantities()) {
+        for (const char* name : q.names) {
+            const std::size_t at = column_of(header, name);
+            if (at == TableHeader::kNone) continue;
+            columns.push_back({&q, at});
+            break;
+        }
+    }
+    std::size_t precip = column_of(header, "p_f");
+    if (precip == TableHeader::kNone) precip = column_of(header, "p");
+    std::size_t air = column_of(header, "ta_f");
+    if (air == TableHeader::kNone) air = column_of(header, "ta");
+    // Half hours with humidity as the deficit alone.
+    const bool has_humidity = column_of(header, "rh") != TableHeader::kNone;
+    std::size_t deficit = TableHeader::kNone;
+    if (!has_humidity) {
+        deficit = column_of(header, "vpd_f");
+        if (deficit == TableHeader::kNone) deficit = column_of(header, "vpd");
+    }
+    rows.unread_columns(header.unread());
+    note_unknown_zone(rows, options, "the local standard time of the site");
+    rows.note(ReadNote::Kind::Info, 0, "place",
+              "latitude, longitude, elevation and the heights of the instruments are not in the "
+              "file: give them");
+    rows.note(ReadNote::Kind::Info, 0, "columns",
+              "values that the archive has filled (_F) are used as it gives them");
+    const auto value_of = [](std::string_view cell) {
+        const auto value = to_number(cell);
+        return value && *value > -9990.0 ? *value : kMissing;
+    };
+    std::vector<std::string_view> cells;
+    bool told = false;
+    while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
+        split(*line, ',', cells, 4096);
+        const auto from = time_of_cell(cell_of(cells, begin)), to = time_of_cell(cell_of(cells, end));
+        if (!from || !to || *to <= *from) {
+            rows.bad_row(lines.number(), "time",
+                         "'" + shown(*line) + "' has no times of its beginning and end");
+            continue;
+        }
+        const double seconds = static_cast<double>(*to - *from) * 1e-6;
+        if (!told) {
+            told = true;
+            for (const Column& c : columns) rows.holds_after(c.quantity->field, 0.5 * seconds);
+            if (deficit != TableHeader::kNone) rows.holds_after(Field::RelHumidity, 0.5 * seconds);
+        }
+        if (!rows.begin_row(*from, lines.number())) continue;
+        for (const Column& c : columns) {
+            const auto cell = cell_of(cells, c.at);
+            const double value = value_of(cell);
+            if (!std::isnan(value))
+                rows.set(c.quantity->field, value * c.quantity->scale + c.quantity->offset);
+            else if (to_number(cell) || trimmed(cell).empty())
+                rows.missing(c.quantity->field);
+            else
+                rows.unreadable(c.quantity->field, cell);
+        }
+        if (precip != TableHeader::kNone) {
+            const double mm = value_of(cell_of(cells, precip));
+            if (std::isnan(mm))
+                rows.missing(Field::Precip);
+            else
+                rows.set(Field::Precip, mm / seconds);
+        }
+        if (deficit != TableHeader::kNone) {
+            const double hpa = value_of(cell_of(cells, deficit)),
+                         air_k = value_of(cell_of(cells, air)) + kZeroCelsiusK;
+            if (std::isnan(hpa) || !(air_k > 173.15 && air_k < 333.15))
+                rows.missing(Field::RelHumidity);
+            else
+                rows.set(Field::RelHumidity,
+                         std::clamp(100.0 - 1e4 * hpa / saturation_pressure_water_pa(air_k), 0.0,
+                                    100.0));
+        }
+    }
+}
+
+bool recognise(const FileHead& head)
+{
+    for (const auto line : head.lines) {
+        if (trimmed(line).front() == '#') continue;
+        const TableHeader header(line, ',');
+        if (header.has("timestamp_start") && header.has("timestamp_end")) return true;
+        return header.has("timestamp") && header.has("ta_f") && header.has("vpd_f");
+    }
+    return false;
+}
+
+}  // namespace
+
+extern const Reader fluxnet_reader;
+const Reader fluxnet_reader{"FLUXNET", "FLUXNET half hours (FULLSET, SUBSET) and AmeriFlux BASE",
+                            recognise, read};
+
+}  // namespace petrichor::weather

@@ -1,0 +1,219 @@
+// Davis WeatherLink, CSV of weatherlink.com: lines about the station, then "Date & Time" and columns
+// whose units stand behind a dash (Temp - F with a degree sign, Rain - in). Amounts and light are of the
+// interval that ends at its row; -- is missing; the clock is that of the station. The text files of
+// the older program write no units: refused_kinds.cpp.
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "weather/physics/constants.h"
+#include "weather/readers/csv_times.h"
+#include "weather/readers/formats.h"
+#include "weather/readers/tables.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+constexpr double kF = 5.0 / 9.0, kFrom_f = kZeroCelsiusK - 32.0 * kF;
+struct Unit {
+    const char* name;
+    double scale, offset;
+};
+constexpr Unit kTemp[] = {{"c", 1.0, kZeroCelsiusK}, {"f", kF, kFrom_f}},
+               kShare[] = {{"%", 1.0, 0.0}},
+               kSpeed[] = {{"mph", 0.44704, 0.0},
+                           {"km/h", 1.0 / 3.6, 0.0},
+                           {"kph", 1.0 / 3.6, 0.0},
+                           {"m/s", 1.0, 0.0},
+                           {"knots", 1852.0 / 3600.0, 0.0},
+                           {"kt", 1852.0 / 3600.0, 0.0}},
+               kPressure[] = {{"in hg", 3386.389, 0.0},
+                              {"inhg", 3386.389, 0.0},
+                              {"hpa", 100.0, 0.0},
+                              {"mb", 100.0, 0.0},
+                              {"mm hg", 133.322, 0.0}},
+               kAmount[] = {{"in", 25.4, 0.0}, {"mm", 1.0, 0.0}}, kFlux[] = {{"w/m^2", 1.0, 0.0}},
+               kNone[] = {{"", 1.0, 0.0}};
+struct Quantity {
+    const char* name;
+    Field field;
+    std::span<const Unit> units;
+    bool sea_level = false;
+};
+// Of two names for one field the first here counts.
+constexpr Quantity kQuantities[] = {
+    {"temp", Field::AirTemp, kTemp},
+    {"outside temp", Field::AirTemp, kTemp},
+    {"avg temp", Field::AirTemp, kTemp},
+    {"hum", Field::RelHumidity, kShare},
+    {"outside hum", Field::RelHumidity, kShare},
+    {"avg hum", Field::RelHumidity, kShare},
+    {"dew point", Field::DewPoint, kTemp},
+    {"wind speed", Field::Wind, kSpeed},
+    {"avg wind speed", Field::Wind, kSpeed},
+    {"wind direction", Field::WindFrom, kNone},
+    {"prevailing wind direction", Field::WindFrom, kNone},
+    {"absolute pressure", Field::Pressure, kPressure},
+    {"barometer", Field::Pressure, kPressure, true},
+    {"rain", Field::Precip, kAmount},
+    {"solar rad", Field::Shortwave, kFlux},
+    {"avg solar rad", Field::Shortwave, kFlux},
+};
+
+struct Column {
+    std::size_t at;
+    const Quantity* quantity;
+    double scale, offset;
+};
+
+// "temp - f", its degree sign left out: name and unit.
+std::pair<std::string, std::string> parts_of(const std::string& column)
+{
+    const std::size_t dash = column.find(" - ");
+    std::string name(trimmed(std::string_view(column).substr(0, dash))), unit;
+    if (dash != std::string::npos)
+        for (const char c : column.substr(dash + 3))
+            if (static_cast<unsigned char>(c) < 0x80) unit += c;
+    return {name, std::string(trimmed(unit))};
+}
+
+std::vector<Column> columns_of(const TableHeader& header)
+{
+    std::vector<Column> out;
+    for (const Quantity& q : kQuantities) {
+        if (std::any_of(out.begin(), out.end(),
+                        [&](const Column& c) { return c.quantity->field == q.field; }))
+            continue;
+        for (std::size_t i = 0; i < header.size(); ++i) {
+            const auto [name, unit] = parts_of(header.names()[i]);
+            if (name != q.name) continue;
+            const auto known = std::find_if(q.units.begin(), q.units.end(),
+                                            [&](const Unit& u) { return unit == u.name; });
+            if (known == q.units.end())
+                throw Error("weather: WeatherLink: the unit '" + shown(unit) + "' of column '" +
+                                shown(header.names()[i]) + "' is not known",
+                            "Choose usual units in the account, and export the file again.");
+            out.push_back({header.at(header.names()[i]), &q, known->scale, known->offset});
+            break;
+        }
+    }
+    return out;
+}
+
+bool is_header(std::string_view line)
+{
+    const std::string low = lower(line);
+    return low.find("date & time") != low.npos && low.find(" - ") != low.npos &&
+           std::count(line.begin(), line.end(), ',') >= 2;
+}
+
+// Which of day and month comes first, as asked or as a row shows.
+DateOrder order_of(Lines lines, std::size_t stamp, const ReadOptions& options)
+{
+    if (options.date_order != DateOrder::Unknown) return options.date_order;
+    DateOrders orders;
+    std::vector<std::string_view> cells;
+    while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
+        split(*line, ',', cells, 1024);
+        orders.add(cell_of(cells, stamp));
+    }
+    if (orders.order() != DateOrder::Unknown) return orders.order();
+    if (orders.either().empty()) return DateOrder::Unknown;
+    throw Error("weather: WeatherLink: dates are as '" + orders.either() +
+                    "', and no row shows whether the day or the month comes first",
+                "Say --date-order dmy or mdy (in a scenario [weather] date_order).");
+}
+
+std::optional<double> degrees_of(std::string_view text)
+{
+    constexpr const char* kPoints[] = {"n", "nne", "ne", "ene", "e", "ese", "se", "sse",
+                                       "s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw"};
+    const std::string low = lower(text);
+    for (int i = 0; i < 16; ++i)
+        if (low == kPoints[i]) return 22.5 * i;
+    return to_number(text);
+}
+
+void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
+{
+    Lines lines(text);
+    std::string_view names;
+    bool first = true;
+    while (const auto line = lines.next()) {
+        if (is_header(*line)) {
+            names = *line;
+            break;
+        }
+        if (first) rows.site().name = shown(split(*line, ',', 2).front());
+        first = false;
+    }
+    const TableHeader header(names, ',');
+    const std::size_t stamp = header.at("date & time");
+    const std::vector<Column> columns = columns_of(header);
+    rows.unread_columns(header.unread());
+    note_unknown_zone(rows, options, "that of the station, with summer time where it keeps it");
+    const DateOrder order = order_of(lines, stamp, options);
+    std::vector<std::int64_t> times;
+    std::vector<std::string_view> cells;
+    for (Lines again = lines; const auto line = again.next();) {
+        split(*line, ',', cells, 1024);
+        const auto us = time_of_cell(cell_of(cells, stamp), order);
+        if (us && (times.empty() || *us > times.back())) times.push_back(*us);
+    }
+    const double hours = static_cast<double>(usual_step_us(times)) / 3600e6;
+    for (const Column& c : columns) {
+        if (c.quantity->field == Field::Shortwave) rows.means_of_past(Field::Shortwave);
+        if (c.quantity->sea_level)
+            rows.note(ReadNote::Kind::Info, 0, "pressure",
+                      std::isnan(options.site.elevation_m)
+                          ? "given for sea level; give the elevation to bring it down"
+                          : "given for sea level, brought to the station");
+    }
+    while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
+        split(*line, ',', cells, 1024);
+        const auto us = time_of_cell(cell_of(cells, stamp), order);
+        if (!us) {
+            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no time");
+            continue;
+        }
+        if (!rows.begin_row(*us, lines.number())) continue;
+        for (const Column& c : columns) {
+            const Field field = c.quantity->field;
+            const auto cell = trimmed(cell_of(cells, c.at));
+            const auto value = field == Field::WindFrom ? degrees_of(cell) : to_number(cell);
+            if (cell.empty() || cell == "--" || cell == "---") {
+                rows.missing(field);
+            } else if (!value) {
+                rows.unreadable(field, cell);
+            } else if (field == Field::Precip) {
+                rows.fell_before(field, *value * c.scale, hours);
+            } else {
+                const double si = *value * c.scale + c.offset;
+                rows.set(field, c.quantity->sea_level
+                                    ? station_pressure_pa(si, options.site.elevation_m, kMissing)
+                                    : si);
+            }
+        }
+    }
+}
+
+bool recognise(const FileHead& head)
+{
+    for (std::size_t i = 0; i < std::min<std::size_t>(head.lines.size(), 10); ++i)
+        if (is_header(head.lines[i])) return true;
+    return false;
+}
+}  // namespace
+
+extern const Reader weatherlink_reader;
+const Reader weatherlink_reader{"WeatherLink CSV", "Davis stations, CSV of weatherlink.com",
+                                recognise, read};
+
+}  // namespace petrichor::weather
