@@ -52,6 +52,7 @@
 #include "formulas/weather/ground_tone.h"
 #include "formulas/weather/gusts.h"
 #include "formulas/weather/land_relief.h"
+#include "formulas/weather/ice_pattern.h"
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
@@ -65,7 +66,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 74;
+SHARED_CONST int kProbeKinds = 75;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -648,6 +649,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(falloff, lit.front.x - lit.back.y, kept.x + kept.y, kept.z);
     }
     if (kind == 73) return vec4(weak_shadow(a.x, b.x), weak_shadow(a.y, 1.0f), weak_shadow(a.z, 0.0f), weak_shadow(0.0f, b.y));
+    if (kind == 74) {
+        const float white = ice_white(vec2(2.0f * a.x - 1.0f, 2.0f * a.y - 1.0f), probe_direction(b.x, 0.5f + 0.5f * b.y), 0.05f * a.z * a.z);
+        const vec3 albedo = patterned_ice(vec3(a.x, a.y, a.z), b.z, b.w);
+        return vec4(1.0f + white, albedo.x, albedo.y, albedo.z);
+    }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
 }

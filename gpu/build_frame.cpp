@@ -538,6 +538,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                    (sun.shadow_strength != 1.0f ? LIGHTS_WEAK_SUN_SHADOW : 0u) | (r.scene->unshadowed() ? LIGHTS_UNSHADOWED : 0u);
     variant.all_lights = settings.all_lights;
     variant.sparkle = any ? weathered : weather.snow && variant.sun && frame.look.snow_sparkle > 0.0f;
+    variant.ice = any ? weathered : made.water && frame.weather.water_to_snow > 0.0f;
     variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
     if (r.resolve && r.scene->layer_shares()) variant.shares = r.resolve->shares.get();
     if (r.own_lighting) variant.shader = kOwnLightingShader;

@@ -166,14 +166,23 @@ SHARED_FN WeatheredMaterial apply_frost(WeatheredMaterial under, float cover)
 }
 
 // Standing water as far as it is frozen: bubbles and cracks make it milky, and its surface is not
-// quite smooth. F0 of ice, n = 1.31.
+// quite smooth. F0 of ice, n = 1.31. Here they are their mean; patterned_ice draws them.
+SHARED_CONST float kIceWhite = 0.24f;  // of its area, in the mean
+SHARED_FN vec3 ice_color() { return vec3(0.76f, 0.80f, 0.83f); }
 SHARED_FN WeatheredMaterial apply_ice(WeatheredMaterial under, float ice)
 {
     WeatheredMaterial icy = under;
-    icy.albedo = mix(under.albedo, vec3(0.52f, 0.57f, 0.61f), 0.4f * ice);
+    icy.albedo = mix(under.albedo, ice_color(), kIceWhite * ice);
     icy.specular = mix(under.specular, splat3(0.018f), ice);
     icy.smoothness = mix(under.smoothness, 0.84f, ice);
     return icy;
+}
+
+// The albedo that apply_ice has with its mean, where ice is `white` (ice_white).
+SHARED_FN vec3 patterned_ice(vec3 albedo, float ice, float white)
+{
+    const vec3 under = (albedo - ice_color() * (kIceWhite * ice)) / (1.0f - kIceWhite * ice);
+    return mix(max(under, splat3(0.0f)), ice_color(), white * ice);
 }
 
 // Share of a flat water surface that closes over the relief below: a film follows the bumps, water

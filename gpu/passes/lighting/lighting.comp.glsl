@@ -36,6 +36,7 @@
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/falling.h"
 #include "formulas/weather/gusts.h"
+#include "formulas/weather/ice_pattern.h"
 #include "formulas/weather/snow_glints.h"
 
 #include "gpu/passes/lighting/lighting_places.glsl"
@@ -217,6 +218,10 @@ void main()
                 }
             }
             closed = closed_water(state);
+            if (ICE != 0u && closed > 0.0) {
+                const float ice = closed * frame.weather.water_to_snow;
+                m.albedo = patterned_ice(m.albedo, ice, ice_white(position.xz, v, pixel_width_m(frame, view_m) * inversesqrt(max(v.y, 0.05))));
+            }
             n = normalize(mix(n, g.cover_normal, m.normal_mix));
             if (TWO_LOBES) beside.normal = normalize(mix(beside.normal, g.cover_normal, m.normal_mix));
         }

@@ -50,6 +50,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_GRAIN, variant.grain},
                       {LIGHTING_SPEC_SNOW_SCATTER, variant.snow_scatter},
                       {LIGHTING_SPEC_SPARKLE, variant.sparkle},
+                      {LIGHTING_SPEC_ICE, variant.ice},
                       {LIGHTING_SPEC_PARTS, variant.split},
                       {LIGHTING_SPEC_FILM, variant.film},
                       {LIGHTING_SPEC_GATHERS, variant.gathers},

@@ -43,6 +43,7 @@ struct LightingVariant {
     std::string shader = kLightingShader;
     bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour
     bool sparkle = false;       ///< snow is seen under the sun
+    bool ice = false;           ///< water that stands is frozen
     bool film = false;               ///< of water, a lobe of its own
     bool split = false;              ///< the light is written taken apart, too: into `parts`
     GpuImage* parts = nullptr;       ///< never null in a pass (gpu/outputs/light_parts.h)
