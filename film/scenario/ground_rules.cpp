@@ -35,10 +35,11 @@ std::vector<Rule> ground_rules()
              s.ground.drains.insert(s.ground.drains.end(), drains.begin(), drains.end());
          }},
         {{"ground", "tap",
-          "[{ x_z_m = [2.0, -1.5], litres_per_min = 20.0, from_s = 0.0, to_s = 600.0 }]",
+          "[{ x_z_m = [2.0, -1.5], litres_per_min = 20.0, from_s = 0.0, to_s = 2.0 }]",
           "water that is let in on the ground, under a weather file and the physical model; tables "
-          "[[ground.tap]] do as well. It wets what it runs over and fills the hollow below. Seconds "
-          "are those of the film; without them it always runs"},
+          "[[ground.tap]] do as well. It wets what it runs over and fills the hollow below. Minutes "
+          "are those of the file, from_s and to_s seconds of the film (an hour of the file each, "
+          "or what hours_per_second says); without them it always runs"},
          [](Scenario& s, const TomlValue& v) { s.ground.taps = read_taps(v); }},
         {{"ground", "gutters", "true",
           "eaves more than 2 m up give nine tenths of their water to a gutter"},

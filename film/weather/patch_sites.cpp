@@ -414,6 +414,13 @@ weather::Ponds ponds_of(const SceneGround& ground)
         shapes.erase(shapes.begin());  // that of the outside
         return shapes;
     };
+    ponds.level_m = [basins](std::span<const double> volume) {
+        scene::BasinWater water(*basins);
+        std::copy(volume.begin(), volume.end(), water.volume_m3.begin());
+        std::vector<float> levels = scene::levels_m(*basins, water);
+        levels.erase(levels.begin());
+        return levels;
+    };
     return ponds;
 }
 

@@ -19,6 +19,7 @@ namespace petrichor::film {
 struct SceneGround {
     scene::HeightField field;
     scene::Basins basins;
+    std::vector<std::size_t> drains;  ///< cells
 };
 
 /// A scene's patches as weather sees them: kinds by material (albedo of the patches themselves),

@@ -125,9 +125,9 @@ SceneGround scene_ground(const scene::Scene& scene, const ScenarioGround& keys,
     SceneGround ground;
     ground.field = scene::ground_height_field(scene, options);
     notes.insert(notes.end(), ground.field.notes.begin(), ground.field.notes.end());
-    std::vector<std::size_t> drains;
-    for (const glm::dvec3& drain : keys.drains) add_drain(ground.field, drain, drains, notes);
-    ground.basins = scene::find_basins(ground.field, drains);
+    for (const glm::dvec3& drain : keys.drains)
+        add_drain(ground.field, drain, ground.drains, notes);
+    ground.basins = scene::find_basins(ground.field, ground.drains);
     return ground;
 }
 

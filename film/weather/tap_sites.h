@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "film/scenario/scenario.h"
@@ -18,9 +19,13 @@ struct TapSite {
     std::optional<double> from_s, to_s;
 };
 
-/// Cells of the ground that water runs over from `start`, down to the lowest that it reaches within
-/// its hollow: the steepest of eight ways, on level ground the shortest to what lies lower.
-std::vector<std::size_t> way_of_water(const SceneGround& ground, std::size_t start);
+/// Cells of the ground that water runs over from `start`, the steepest of eight ways, on level ground
+/// the shortest to what lies lower.
+///   height_m  of the field: down to the lowest that it reaches; scene::filled_heights of it: as if all
+///             hollows were full, on over their brims and out
+///   stays     only over cells that drain to the same hollow
+std::vector<std::size_t> way_of_water(const SceneGround& ground, std::span<const float> height_m,
+                                      std::size_t start, bool stays);
 
 /// Where the taps of a scenario stand and what they wet.
 ///   throws  Error for a tap outside of the ground, or where something solid stands

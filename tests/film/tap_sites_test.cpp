@@ -52,13 +52,13 @@ scene::Scene valley()
 }
 
 struct Valley {
-    scene::Scene scene = valley();
+    scene::Scene scene;
     scene::Triangles triangles{scene, {}};
     scene::Tracer tracer{triangles};
     scene::Patches patches;
     std::vector<scene::PatchSurface> surfaces;
 
-    Valley()
+    explicit Valley(scene::Scene ground = valley()) : scene(std::move(ground))
     {
         scene::PatchOptions options;
         options.cell_m = 0.5f;
@@ -88,8 +88,9 @@ TEST(TapSites, WaterRunsStraightDownToTheHollow)
     const Valley place;
     const SceneSites sites = place.sites({tap_at(-3.3, 1.2)});
     ASSERT_EQ(sites.taps.size(), 1u);
-    const weather::PatchTap& tap = sites.taps[0].tap;
-    EXPECT_NEAR(tap.flow_kg_s, 0.2, 1e-12);
+    EXPECT_NEAR(sites.taps[0].tap.flow_kg_s, 0.2, 1e-12);
+    ASSERT_FALSE(sites.taps[0].tap.stretches.empty());
+    const weather::TapStretch& tap = sites.taps[0].tap.stretches[0];
     ASSERT_NE(tap.runs_to, weather::kRunsOut);
     ASSERT_NE(tap.runs_to & weather::kToPond, 0u);
     // Five metres in patches of about one, from the tap to the bottom of the trough, each lower.
@@ -122,12 +123,14 @@ TEST(TapSites, WaterFindsItsWayOverLevelGround)
                              inf, 3,   3,   3,   2,   2,   2,   inf,  //
                              inf, inf, inf, inf, inf, inf, inf, inf};
     ground.basins = scene::find_basins(ground.field);
-    const auto way = way_of_water(ground, ground.field.cell_of(1, 2));
+    const auto way =
+        way_of_water(ground, ground.field.height_m, ground.field.cell_of(1, 2), true);
     ASSERT_EQ(way.size(), 6u);
     EXPECT_EQ(way.back(), ground.field.cell_of(6, 1));
     for (std::size_t i = 1; i < way.size(); ++i)
         EXPECT_LE(ground.field.height_m[way[i]], ground.field.height_m[way[i - 1]]);
-    EXPECT_EQ(way_of_water(ground, way.back()), std::vector<std::size_t>{way.back()});
+    EXPECT_EQ(way_of_water(ground, ground.field.height_m, way.back(), true),
+              std::vector<std::size_t>{way.back()});
 }
 
 TEST(TapSites, AHollowFillsInADryDay)
@@ -153,17 +156,62 @@ TEST(TapSites, AHollowFillsInADryDay)
     EXPECT_EQ(sums.books.fallen, 0.0);
     EXPECT_GT(sums.ponds_m3, 5.5);
     EXPECT_LE(std::abs(sums.books.residual()), 1e-9 * sums.books.let_in);
-    const std::uint32_t pond = sites.taps[0].tap.runs_to & ~weather::kToPond;
+    const weather::TapStretch& way = sites.taps[0].tap.stretches[0];
+    const std::uint32_t pond = way.runs_to & ~weather::kToPond;
     EXPECT_GT(after->levels_m[pond + 1], before->levels_m[pond + 1] + 0.1f);
     // The way is wet, the ground above the tap is dry.
     const auto film = [&](std::uint32_t patch) {
         return after->states[patch * PLACE_STATE_TEXELS + 2].x;
     };
-    EXPECT_GT(film(sites.taps[0].tap.way[2]), 0.2f);
+    EXPECT_GT(film(way.way[2]), 0.2f);
     for (std::uint32_t i = 0; i < place.patches.count; ++i)
         if (place.patches.position_m[i].x < -4.0f) {
             EXPECT_EQ(film(i), 0.0f) << i;
         }
+}
+
+// Two troughs one below the other: the lower one and the way to it stay dry until the upper is full.
+TEST(TapSites, WaterRunsOverTheBrimToTheNextHollowAndOut)
+{
+    scene::Scene scene = valley();
+    scene.meshes.front().primitives.clear();
+    const std::vector<glm::vec2> profile{{-6, 0.6f}, {-3, 0.2f}, {-1, 0.35f},
+                                         {2, 0.05f}, {4, 0.2f},  {6, -0.1f}};
+    for (std::size_t i = 1; i < profile.size(); ++i) {
+        const glm::vec2 a = profile[i - 1], b = profile[i];
+        add_quad(scene, {a.x, a.y, 4}, {b.x - a.x, b.y - a.y, 0}, {0, 0, -8});
+    }
+    add_quad(scene, {-6, 0.6f, 5}, {12, 0, 0}, {0, 0, -1});
+    add_quad(scene, {-6, 0.6f, -4}, {12, 0, 0}, {0, 0, -1});
+    const Valley place(std::move(scene));
+    const SceneSites sites = place.sites({tap_at(-4.4, 0.3, 60.0)});
+    const std::vector<weather::TapStretch>& ways = sites.taps[0].tap.stretches;
+    ASSERT_EQ(ways.size(), 3u);
+    EXPECT_NEAR(ways[0].spill_m, 0.35, 0.01);
+    EXPECT_NEAR(ways[1].spill_m, 0.2, 0.01);
+    EXPECT_EQ(ways[2].runs_to, weather::kRunsOut);
+    EXPECT_NE(ways[0].runs_to, ways[1].runs_to);
+    const auto dry = rain_table(30, 0.0, 0.0, 0.0);
+    weather::PatchParams params;
+    params.taps = taps_of_run(sites.taps, [](double) { return std::int64_t{0}; });
+    params.taps[0].from_us = dry.time_us.front();
+    PlaceWeatherOfFile run(sites, dry, params, dry.time_us.front());
+    const auto wet_at = [&](std::size_t hour) {
+        const auto now = run.at(dry.time_us[hour]);
+        std::vector<bool> wet;
+        for (const weather::TapStretch& stretch : ways)
+            wet.push_back(now->states[stretch.way[stretch.way.size() / 2] * PLACE_STATE_TEXELS + 2].x >
+                          0.2f);
+        return wet;
+    };
+    // 3.6 m3 an hour; the upper trough holds 1.9 m3, the lower one 2.1.
+    EXPECT_EQ(wet_at(0), (std::vector<bool>{false, false, false}));
+    EXPECT_EQ(wet_at(1), (std::vector<bool>{true, false, false}));
+    EXPECT_EQ(wet_at(2), (std::vector<bool>{true, true, false}));
+    EXPECT_EQ(wet_at(8), (std::vector<bool>{true, true, true}));
+    const weather::PatchLedger books = run.sums().books;
+    EXPECT_GT(books.out, 1000.0);
+    EXPECT_LE(std::abs(books.residual()), 1e-9 * books.let_in);
 }
 
 TEST(TapSites, OutsideOfTheGroundTheyAreRefused)

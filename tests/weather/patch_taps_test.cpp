@@ -45,8 +45,7 @@ Ponds one_pond()
 PatchTap tap_at(const ForcingTable& table, double kg_s)
 {
     PatchTap tap;
-    tap.way = {0, 1, 2};
-    tap.runs_to = kToPond | 0;
+    tap.stretches = {{{0, 1, 2}, kToPond | 0}};
     tap.flow_kg_s = kg_s;
     tap.from_us = table.time_us[2] + 20 * 60 * 1000000LL;
     tap.to_us = table.time_us[4] + 30 * 60 * 1000000LL;  // 130 minutes
@@ -115,6 +114,28 @@ TEST(PatchTaps, SoakIntoALawn)
     EXPECT_LE(std::abs(books.residual()), 1e-9 * books.let_in);
 }
 
+TEST(PatchTaps, RunOnOverTheBrimOfAHollowThatIsFull)
+{
+    const ForcingTable dry = steady(12, 12.0, 0.0, 1.0, 240);
+    Ponds pond = one_pond();
+    pond.level_m = [](std::span<const double> v) {
+        return std::vector<float>{static_cast<float>(v[0] / 4.0)};
+    };
+    PatchTap tap = tap_at(dry, 0.5);
+    tap.stretches = {{{0, 1}, kToPond | 0, 0.4}, {{2}, kRunsOut}};
+    PatchParams params;
+    params.taps = {tap};
+    PatchWeather patches(dry, road(), params, dry.time_us.front(), pond);
+    patches.go_to(dry.time_us[3]);  // 0.3 m
+    EXPECT_EQ(patches.state(2).cell.film, 0.0);
+    EXPECT_EQ(patches.ledger().out, 0.0);
+    patches.go_to(dry.time_us[5]);
+    EXPECT_GT(patches.state(2).cell.film, 0.1);
+    const PatchLedger books = patches.ledger();
+    EXPECT_GT(books.out, 500.0);
+    EXPECT_LE(std::abs(books.residual()), 1e-9 * books.let_in);
+}
+
 TEST(PatchTaps, GoOnFromASavedStateAndAreNoOtherRuns)
 {
     const ForcingTable dry = steady(12, 12.0, 0.0, 1.0, 240);
@@ -140,7 +161,7 @@ TEST(PatchTaps, WhatCannotBeUsedIsRefused)
     const ForcingTable dry = steady(4, 12.0, 0.0, 1.0, 240);
     const auto refused = [&](auto&& change) {
         PatchTap tap;
-        tap.way = {0};
+        tap.stretches = {{{0}, kRunsOut}};
         tap.flow_kg_s = 1.0;
         EXPECT_NO_THROW(run(dry, tap));
         change(tap);
@@ -149,9 +170,9 @@ TEST(PatchTaps, WhatCannotBeUsedIsRefused)
     refused([](PatchTap& t) { t.flow_kg_s = -1.0; });
     refused([](PatchTap& t) { t.flow_kg_s = std::numeric_limits<double>::quiet_NaN(); });
     refused([](PatchTap& t) { t.flow_kg_s = std::numeric_limits<double>::infinity(); });
-    refused([](PatchTap& t) { t.way = {4}; });
-    refused([](PatchTap& t) { t.runs_to = kToPond | 1; });
-    refused([](PatchTap& t) { t.runs_to = 2; });
+    refused([](PatchTap& t) { t.stretches[0].way = {4}; });
+    refused([](PatchTap& t) { t.stretches[0].runs_to = kToPond | 1; });
+    refused([](PatchTap& t) { t.stretches[0].runs_to = 2; });
     refused([](PatchTap& t) {
         t.from_us = 10;
         t.to_us = 9;

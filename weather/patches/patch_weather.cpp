@@ -147,8 +147,11 @@ struct PatchWeather::Impl {
         for (const double t : table[Field::AirTemp]) hash.add(t);
         for (const PatchTap& tap : params.taps) {
             hash.add(tap.flow_kg_s, static_cast<double>(tap.from_us),
-                     static_cast<double>(tap.to_us), static_cast<double>(tap.runs_to));
-            for (const std::uint32_t patch : tap.way) hash.add(static_cast<double>(patch));
+                     static_cast<double>(tap.to_us));
+            for (const TapStretch& stretch : tap.stretches) {
+                hash.add(static_cast<double>(stretch.runs_to), stretch.spill_m);
+                for (const std::uint32_t patch : stretch.way) hash.add(static_cast<double>(patch));
+            }
         }
         identity = hash.value();
     }

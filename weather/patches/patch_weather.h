@@ -36,6 +36,8 @@ struct Ponds {
     std::function<double(std::span<const double> volume_m3)> stored_m3;
     /// By pond; depth times area adds up to stored_m3. Without it ponds do not freeze.
     std::function<std::vector<PondShape>(std::span<const double> volume_m3)> shape;
+    /// By pond, world y; without it taps fill the first pond that they come to.
+    std::function<std::vector<float>(std::span<const double> volume_m3)> level_m;
 };
 
 struct PatchParams {

@@ -28,11 +28,15 @@ void check_taps(const std::vector<PatchTap>& taps, const PatchSet& set)
                 "0 or more");
         require(tap.to_us >= tap.from_us, "to_us", static_cast<double>(tap.to_us),
                 "from_us or later");
-        for (const std::uint32_t patch : tap.way)
-            require(patch < set.patches.size(), "way", patch, "numbers of patches");
-        const bool to_pond = tap.runs_to != kRunsOut && (tap.runs_to & kToPond) != 0 &&
-                             (tap.runs_to & ~kToPond) < set.ponds;
-        require(tap.runs_to == kRunsOut || to_pond, "runs_to", tap.runs_to, "a pond or kRunsOut");
+        for (const TapStretch& stretch : tap.stretches) {
+            for (const std::uint32_t patch : stretch.way)
+                require(patch < set.patches.size(), "way", patch, "numbers of patches");
+            const bool to_pond = stretch.runs_to != kRunsOut && (stretch.runs_to & kToPond) != 0 &&
+                                 (stretch.runs_to & ~kToPond) < set.ponds;
+            require(stretch.runs_to == kRunsOut || to_pond, "runs_to", stretch.runs_to,
+                    "a pond or kRunsOut");
+            require(!std::isnan(stretch.spill_m), "spill_m", stretch.spill_m, "a height");
+        }
     }
 }
 

@@ -9,12 +9,20 @@
 
 namespace petrichor::weather {
 
-/// Water that is let in: a hydrant, a burst pipe, a hose. It runs over `way`, each patch takes what
-/// its stores lack and its ground soaks up, and the rest goes to `runs_to`. It brings no heat.
-struct PatchTap {
-    std::vector<std::uint32_t> way;    ///< patches that it wets, the first where it stands
+/// A way down to a pond, or out of the scene.
+struct TapStretch {
+    std::vector<std::uint32_t> way;    ///< patches that water wets on it
     std::uint32_t runs_to = kRunsOut;  ///< kToPond | number, or kRunsOut
-    double flow_kg_s = 0.0;            ///< >= 0
+    /// Where the pond stands as high as this, what comes runs on along the next stretch.
+    double spill_m = std::numeric_limits<double>::infinity();
+};
+
+/// Water that is let in: a hydrant, a burst pipe, a hose. It runs along its stretches; each patch takes
+/// what its stores lack and its ground soaks up, and the rest goes to the first pond that has room. It
+/// brings no heat.
+struct PatchTap {
+    std::vector<TapStretch> stretches;  ///< the first where it stands; none: it runs out
+    double flow_kg_s = 0.0;             ///< >= 0
     std::int64_t from_us = std::numeric_limits<std::int64_t>::min();
     std::int64_t to_us = std::numeric_limits<std::int64_t>::max();  ///< >= from_us
 };

@@ -347,7 +347,7 @@ void advance_patches(PatchLive& live, const PatchTables& t, const SkyStep& sky,
                  });
     drift_snow(live, t, sky, w);
     slide_snow(live, t, sky.forcing.dt_s, w);
-    let_water_in(live, t, sky, params.taps, w);
+    let_water_in(live, t, sky, params.taps, ponds, w);
     run_off(live, t, sky.forcing.dt_s, w);
     step_ponds(live, t, sky, ponds, w);
 }

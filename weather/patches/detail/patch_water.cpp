@@ -101,17 +101,27 @@ void show_run_on(PatchLive& live, const PatchTables& t, std::uint32_t patch, dou
 }  // namespace
 
 void let_water_in(PatchLive& live, const PatchTables& t, const SkyStep& sky,
-                  const std::vector<PatchTap>& taps, PatchScratch& w)
+                  const std::vector<PatchTap>& taps, const Ponds& ponds, PatchScratch& w)
 {
+    std::vector<float> level_m;
+    if (!taps.empty() && ponds.level_m) level_m = ponds.level_m(live.pond_m3);
     for (const PatchTap& tap : taps) {
         double left = let_in_kg(tap, sky.begin_us, sky.end_us);
         live.let_in_kg += left;
-        for (const std::uint32_t patch : tap.way) {
-            if (!(left > 0.0)) break;
-            show_run_on(live, t, patch, left, sky.forcing.dt_s);
-            left = take_in(live, t, patch, left, sky.forcing.dt_s);
+        std::uint32_t runs_to = kRunsOut;
+        for (const TapStretch& stretch : tap.stretches) {
+            for (const std::uint32_t patch : stretch.way) {
+                if (!(left > 0.0)) break;
+                show_run_on(live, t, patch, left, sky.forcing.dt_s);
+                left = take_in(live, t, patch, left, sky.forcing.dt_s);
+            }
+            runs_to = stretch.runs_to;
+            const std::size_t pond = runs_to & ~kToPond;
+            if (runs_to == kRunsOut || pond >= level_m.size() ||
+                static_cast<double>(level_m[pond]) < stretch.spill_m)
+                break;
         }
-        if (left > 0.0) pour_on(live, t, tap.runs_to, left, w);
+        if (left > 0.0) pour_on(live, t, runs_to, left, w);
     }
 }
 

@@ -16,7 +16,7 @@ void pour_on(PatchLive& live, const PatchTables& tables, std::uint32_t target, d
 
 // Water from taps, on its way over patches and on to ponds. Before run_off.
 void let_water_in(PatchLive& live, const PatchTables& tables, const SkyStep& sky,
-                  const std::vector<PatchTap>& taps, PatchScratch& scratch);
+                  const std::vector<PatchTap>& taps, const Ponds& ponds, PatchScratch& scratch);
 
 // What the patches shed in a step runs down: each takes what its stores lack and its ground soaks
 // up, and passes on the rest.
