@@ -26,6 +26,7 @@
 #include "formulas/light/light_profile.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/near_light.h"
+#include "formulas/light/mist.h"
 #include "formulas/light/occlusion_points.h"
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/patch_cells.h"
@@ -66,7 +67,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 75;
+SHARED_CONST int kProbeKinds = 76;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -653,6 +654,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float white = ice_white(vec2(2.0f * a.x - 1.0f, 2.0f * a.y - 1.0f), probe_direction(b.x, 0.5f + 0.5f * b.y), 0.05f * a.z * a.z);
         const vec3 albedo = patterned_ice(vec3(a.x, a.y, a.z), b.z, b.w);
         return vec4(1.0f + white, albedo.x, albedo.y, albedo.z);
+    }
+    if (kind == 75) {
+        const float wisps = mist_wisps(vec2(2.0f * a.x - 1.0f, 2.0f * a.y - 1.0f), vec2(a.z, a.w), b.x);
+        const float depth = mist_depth(b.y, vec3(0.0f, 1.7f, 0.0f), vec3(8.0f * b.z, b.w, 3.0f), 0.5f * c.x);
+        return vec4(1.0f + wisps, depth, 1.0f + mist_extinction_per_m(280.0f + 40.0f * c.y, 280.0f + 20.0f * c.z, c.w, a.x), 0.0f);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -563,7 +563,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             variant.horizon = settings.horizon_fade > 0.0f;
             variant.grain = settings.anisotropic_dither > 0.0f &&
                             (variant.layers & LAYERS_ANISOTROPY) != 0u;
-            variant.fog = c.fog_per_m > 0.0f;
+            variant.fog = c.fog_per_m > 0.0f || c.mist_per_m > 0.0f;
             variant.gusts = any || c.gusts.z > 0.0f;
             variant.film = settings.film_lobe && weathered && (any || c.weather.film_smoothness > 0.0f);
             variant.night =

@@ -20,6 +20,7 @@
 #include "film/scenario/material_keys.h"
 #include "film/scenes/shapes.h"
 #include "film/tiles/tile_plan.h"
+#include "formulas/light/mist.h"
 
 namespace petrichor::film {
 namespace {
@@ -266,6 +267,14 @@ glm::dvec2 turned(const glm::dvec2& v, double north_rad)
     return {v.x * c - v.y * s, v.x * s + v.y * c};
 }
 
+// Of the ground as the weather has it; where that is not known there is none.
+float mist_per_m(const shared::WeatherMoment& w)
+{
+    if (w.surface_temperature_k < 0.0f || w.relative_humidity < 0.0f || w.film_mm <= 0.0f) return 0.0f;
+    return shared::mist_extinction_per_m(w.surface_temperature_k, w.air_temperature_k, w.relative_humidity,
+                                         glm::length(w.wind_m_s));
+}
+
 // What falls, as far as the picture shows that.
 bool something_falls(const shared::WeatherMoment& w)
 {
@@ -404,6 +413,9 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     out.fog.start_m = narrow(value_at(fog.start_m, time_s, 0.0));
     out.fog.end_m = narrow(value_at(fog.end_m, time_s, 100.0));
     out.fog.height_m = narrow(value_at(fog.height_m, time_s, 120.0));
+    out.fog.mist_per_m = fog.mode == gpu::FogMode::Off ? 0.0f
+                         : fog.mist_per_m.given()      ? narrow(value_at(fog.mist_per_m, time_s))
+                                                       : mist_per_m(out.weather);
 
     out.falling.shutter_s = narrow(value_at(camera.shutter_s, time_s, kShutter_s));
     out.falling.density = narrow(scenario.render.falling_density);
@@ -461,7 +473,7 @@ namespace {
 void add_fog(Hasher& hasher, const gpu::Fog& fog)
 {
     hasher.add(fog.mode);
-    for (const float value : {fog.per_m, fog.start_m, fog.end_m, fog.height_m}) hasher.add(value);
+    for (const float value : {fog.per_m, fog.start_m, fog.end_m, fog.height_m, fog.mist_per_m}) hasher.add(value);
 }
 
 void add_materials(Hasher& hasher, const gpu::Frame& frame)

@@ -125,6 +125,7 @@ struct ScenarioFog {
     KeyedNumber per_m;         ///< with Exp and Exp2
     KeyedNumber start_m, end_m;  ///< with Linear
     KeyedNumber height_m;
+    KeyedNumber mist_per_m;  ///< not given: of the weather, where it knows how warm the ground is
 };
 
 /// Which model makes the moments of a weather file.

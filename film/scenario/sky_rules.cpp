@@ -111,6 +111,11 @@ std::vector<Rule> sky_rules()
           "it thins out to 1/e over this height above the scene's lowest point; 0: it has no top",
           true},
          [](Scenario& s, const TomlValue& v) { s.fog.height_m = v.keyed(0.0, 1e5); }},
+        {{"fog", "mist_per_m", "0.5",
+          "mist that rises from wet ground, a few hands high: its extinction at the ground, 0 to 10 a metre; without it "
+          "the physical model decides, by how much warmer than the air the ground is",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.fog.mist_per_m = v.keyed(0.0, 10.0); }},
     };
 }
 

@@ -93,6 +93,7 @@ struct Fog {
     float per_m = 0.01f;  ///< of Exp and Exp2
     float start_m = 0.0f, end_m = 100.0f;  ///< of Linear
     float height_m = 120.0f;  ///< scale height of the layer over the scene's lowest point; 0: endless
+    float mist_per_m = 0.0f;  ///< extinction of mist on wet ground, some hands high (formulas/light/mist.h); any mode
 };
 
 /// How rain and snow are drawn on their way down. What falls, and how fast, the weather says.

@@ -6,6 +6,7 @@
 #include "formulas/color/srgb.h"
 #include "formulas/color/white_balance.h"
 #include "formulas/light/fog.h"
+#include "formulas/light/mist.h"
 #include "formulas/light/sun_cookie.h"
 #include "formulas/weather/visibility.h"
 #include "gpu/frame/sun.h"
@@ -133,6 +134,9 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.fog_end_m = frame.fog.end_m;
     c.fog_height_m = frame.fog.height_m;
     c.fog_base_m = scene.low.y;
+    c.mist_per_m = veils ? frame.fog.mist_per_m : 0.0f;
+    const glm::dvec2 gone = glm::mod(frame.falling.air_m, glm::dvec2(shared::kMistPeriod_m));
+    c.mist_air_m = glm::vec2(gone);
     c.white_gains = white_gains(s);
     c.bloom = s.bloom;
     c.wet_lens = lens_wetness(frame);

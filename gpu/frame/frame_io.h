@@ -97,6 +97,8 @@ struct FrameConstants {
     float fog_end_m;
     float fog_height_m;
     float fog_base_m;     // world height
+    float mist_per_m;     // extinction of the layer on warm wet ground (formulas/light/mist.h); 0: none
+    vec2 mist_air_m;      // how far its air has gone
     float drawn_per_m;    // extinction of the drops and flakes that are drawn one by one ..
     float drawn_reach_m;  // .. and how far they are, in the mean
     vec3 gusts;           // way of the wind that carries their clouds, x and z; strength (formulas/weather/gusts.h)

@@ -4,7 +4,7 @@
 
 #include "gpu/frame/frame_io.h"
 
-#define FRAME_WORD_COUNT 235  // behind them FrameArrays begins, with its falls
+#define FRAME_WORD_COUNT 238  // behind them FrameArrays begins, with its falls
 #define FRAME_FALL_WORDS 19
 #define FRAME_SPEC_LANES 255  // of a CPU's subgroup, FrameTargets::lanes; 0: constants are read as they are
 // X(type, member)
@@ -38,6 +38,7 @@
     X(uint, shaped_shadows) X(uint, plain_lights) X(uint, shaped_lights) X(float, ao_radius_m)               \
     X(float, ao_strength) X(float, ambient_scale) X(float, sky_scale) X(vec4, land) X(float, fog_per_m)      \
     X(int, fog_mode) X(float, fog_start_m) X(float, fog_end_m) X(float, fog_height_m) X(float, fog_base_m)   \
+    X(float, mist_per_m) X(vec2, mist_air_m)                                                                 \
     X(float, drawn_per_m) X(float, drawn_reach_m) X(vec3, gusts) X(vec3, white_gains) X(float, bloom)        \
     X(float, wet_lens) X(float, emissive_scale) X(float, exposure) X(float, exposure_bias) X(float, samples) \
     X(float, sun_angular_cos) X(float, shelter_spread_m) X(float, horizon_fade) X(float, specular_aa)        \

@@ -19,6 +19,7 @@
 #include "formulas/weather/run_off.h"
 #include "formulas/weather/soaked_walls.h"
 #include "formulas/light/fog.h"
+#include "formulas/light/mist.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/lighting/lighting_io.h"
@@ -112,6 +113,7 @@ LitPoint mirroring_part(LitPoint p)
 #include "gpu/passes/lighting/gathered_light.glsl"
 #include "gpu/passes/lighting/rough_mirror.glsl"
 #include "gpu/passes/lighting/ambient_light.glsl"
+#include "gpu/passes/lighting/ground_mist.glsl"
 #include "gpu/passes/lighting/snow_sparkle.glsl"
 #include "gpu/passes/lighting/mirror_list.glsl"
 
@@ -493,7 +495,8 @@ void main()
             if (PARTS != 0u) parts.of[PART_SPECULAR_INDIRECT] = blurred;
         }
         if (FOG != 0u) {
-            const float kept = air_kept(position);
+            float kept = air_kept(position);
+            if (WEATHER != 0u && frame.mist_per_m > 0.0) kept *= mist_kept(position, g.cover_normal.y, g.weather);
             const vec3 veil = sky_veil(air_level(-v));
             radiance = mix(veil, radiance, kept);
             if (PARTS != 0u) veil_parts(parts, kept, veil);
