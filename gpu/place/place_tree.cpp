@@ -140,46 +140,65 @@ void add_leaf(std::vector<std::uint32_t>& words, std::size_t roots, const Roots&
     fill(words, first, across, at, 1 << (leaf.level - level), word_of(leaf));
 }
 
-// What lies in a cell beside a leaf, next to it: of another material than its own if any is.
-std::uint32_t beside(shared::PlaceLookup lookup, const shared::PatchGrid& grid, const Leaf& leaf, const glm::ivec3& step,
-                     std::span<const std::uint32_t> materials)
+// Patches of other materials in a cell beside a leaf, next to it.
+void add_beside(std::vector<std::uint32_t>& found, shared::PlaceLookup lookup, const shared::PatchGrid& grid, const Leaf& leaf,
+                const glm::ivec3& step, std::span<const std::uint32_t> materials)
 {
-    if (!sees(leaf, step)) return kNoPlace;
+    if (!sees(leaf, step)) return;
     const int side = 1 << leaf.level;
-    const glm::ivec3 corner = leaf.cell << leaf.level;
-    std::uint32_t found = kNoPlace;
-    for (int k = 0; k < 4; ++k) {
-        glm::ivec3 at = corner;
+    const int parts = std::min(side, 4);
+    for (int k = 0; k < parts * parts; ++k) {
+        glm::ivec3 at = leaf.cell << leaf.level;
         for (int d = 0; d < 3; ++d) {
-            const bool upper = d == leaf.axis / 2 ? (k & 1) != 0 : (k & 2) != 0;
-            at[d] += step[d] > 0 ? side : step[d] < 0 ? -1 : side > 1 ? (upper ? side - side / 4 - 1 : side / 4) : 0;
+            const int part = d == leaf.axis / 2 ? k % parts : k / parts;
+            at[d] += step[d] > 0 ? side : step[d] < 0 ? -1 : (2 * part + 1) * side / (2 * parts);
         }
         const std::uint32_t there = lookup.place_leaf(grid, at, leaf.axis);
         if (there == kNoPlace) continue;
-        if (materials[shared::place_leaf_patch(there)] != materials[leaf.patch]) return there;
-        if (found == kNoPlace) found = there;
+        const std::uint32_t patch = shared::place_leaf_patch(there);
+        const bool known = std::find(found.begin(), found.end(), patch) != found.end();
+        if (!known && materials[patch] != materials[leaf.patch]) found.push_back(patch);
     }
-    return found;
+}
+
+// One patch for each side of a leaf, straight over it rather than over its corners; as many materials as there are.
+std::array<std::uint32_t, 4> sides_of(const shared::PlaceLookup& lookup, const shared::PatchGrid& grid, const Leaf& leaf,
+                                      std::span<const std::uint32_t> materials)
+{
+    constexpr std::array<glm::ivec2, 4> kSides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    std::array<std::vector<std::uint32_t>, 4> found;
+    for (std::size_t side = 0; side < 4; ++side) {
+        const glm::ivec2 s = kSides[side];
+        for (const int corner : {0, 1, -1}) {
+            const glm::ivec2 way = s + corner * glm::ivec2(s.y, s.x);
+            add_beside(found[side], lookup, grid, leaf, step_of(leaf.axis, way.x, way.y), materials);
+        }
+    }
+    std::array<std::uint32_t, 4> taken;
+    taken.fill(leaf.patch);
+    std::vector<std::uint32_t> known{materials[leaf.patch]};
+    const auto take_new = [&](std::size_t side, std::span<const std::uint32_t> of) {
+        for (const std::uint32_t patch : of) {
+            if (std::find(known.begin(), known.end(), materials[patch]) != known.end()) continue;
+            taken[side] = patch;
+            known.push_back(materials[patch]);
+            return;
+        }
+    };
+    for (std::size_t side = 0; side < 4; ++side) take_new(side, found[side]);
+    for (std::size_t side = 0; side < 4; ++side) {
+        for (std::size_t other = 0; other < 4 && taken[side] == leaf.patch; ++other) take_new(side, found[other]);
+        if (taken[side] == leaf.patch && !found[side].empty()) taken[side] = found[side].front();
+    }
+    return taken;
 }
 
 void put_sides(std::vector<std::uint32_t>& words, const shared::PatchGrid& grid, const Leaf& leaf,
                std::span<const std::uint32_t> materials)
 {
-    const shared::PlaceLookup lookup{words};
-    constexpr std::array<glm::ivec2, 4> kSides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-    for (std::size_t side = 0; side < 4; ++side) {
-        const glm::ivec2 s = kSides[side];
-        std::uint32_t patch = leaf.patch;
-        // Straight over the side, then over its corners.
-        for (const int corner : {0, 1, -1}) {
-            const glm::ivec2 way = s + corner * glm::ivec2(s.y, s.x);
-            const std::uint32_t there = beside(lookup, grid, leaf, step_of(leaf.axis, way.x, way.y), materials);
-            if (there == kNoPlace || materials[shared::place_leaf_patch(there)] == materials[leaf.patch]) continue;
-            patch = shared::place_leaf_patch(there);
-            break;
-        }
-        words[std::size_t{leaf.patch} * kPlaceWords + 1 + side] = patch | materials[patch] << 16;
-    }
+    const std::array<std::uint32_t, 4> sides = sides_of({words}, grid, leaf, materials);
+    for (std::size_t side = 0; side < 4; ++side)
+        words[std::size_t{leaf.patch} * kPlaceWords + 1 + side] = sides[side] | materials[sides[side]] << 16;
 }
 
 }  // namespace
