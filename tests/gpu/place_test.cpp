@@ -1,6 +1,7 @@
 // Pixels find the weather of the patch where they lie, and the water of the hollow below them.
 #include <cmath>
 
+#include "scene/basins/water.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/patches.h"
 #include "gpu/place/place_tree.h"
@@ -353,6 +354,35 @@ TEST_F(PlaceTest, PixelsFindThePatchThatTheirFormulaNames)
         // What lies on a border to the last bit, or between two materials.
         EXPECT_LT(wrong, seen / 100);
     }
+}
+
+// Where nothing is wet, white or frozen no pixel asks its patch: to the byte the picture without patches, as that of patches
+// of which one out of sight is wet.
+TEST_F(PlaceTest, WhereAllIsDryThePictureIsThatWithoutPlaces)
+{
+    load_floor();
+    renderer->load(scene_of({quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), quad({20, 0, 22}, {4, 0, 0}, {0, 0, -4})},
+                            {plain_material(glm::vec3(0.3f))}),
+                   {});
+    shape->basin_corner_m = {20.0f, 18.0f};
+    shape->basin_cell_m = 4.0f;
+    shape->basin_width = shape->basin_depth = 1;
+    shape->labels = {1};
+    auto place = dry();
+    place->levels_m = {0.0f, scene::kDry_m};
+    Frame frame = from_above(place);
+    frame.settings.aovs = {"depth", "film", "water", "position"};
+    const RenderResult asked = renderer->render(frame);
+    frame.place = nullptr;
+    EXPECT_EQ(renderer->render(frame).beauty, asked.beauty);
+    auto pond = std::make_shared<PlaceWeather>(*place);
+    pond->levels_m = {0.0f, 0.02f};
+    frame.place = pond;
+    const RenderResult beside = renderer->render(frame);
+    EXPECT_EQ(aov(beside, "water", 32, 32), 0.0f);
+    for (int x = 4; x < 60; x += 5) EXPECT_NEAR(luminance(pixel(beside, x, 32)), luminance(pixel(asked, x, 32)), 1e-3f * luminance(pixel(asked, x, 32)));
+    frame.camera = look({22, 6, 20}, {22, 0, 20}, 0.7f);
+    EXPECT_EQ(aov(renderer->render(frame), "water", 32, 32), 1.0f);
 }
 
 TEST_F(PlaceTest, WhatDoesNotBelongTogetherIsRefused)
