@@ -229,7 +229,7 @@ std::shared_ptr<const gpu::PlaceWeather> ArtistPlaces::at(double time_s) const
     for (const double cells : m.basins.pit_cells)
         into.push_back(depth_m * cells * m.basins.cell_area_m2);
     scene::pour(m.basins, water, into);
-    place->levels_m = scene::levels_m(m.basins, water);
+    place->levels_m = scene::drawn_levels_m(m.basins, water);
     return place;
 }
 

@@ -48,7 +48,7 @@ std::shared_ptr<const gpu::PlaceWeather> Hollows::at(float flood_puddles) const
     scene::pour(basins_, water, into);
     auto place = std::make_shared<gpu::PlaceWeather>();
     place->shape = shape_;
-    place->levels_m = scene::levels_m(basins_, water);
+    place->levels_m = scene::drawn_levels_m(basins_, water);
     return place;
 }
 

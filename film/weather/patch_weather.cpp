@@ -209,7 +209,7 @@ std::shared_ptr<const gpu::PlaceWeather> PlaceWeatherOfFile::at(std::int64_t utc
     scene::BasinWater water(*m.basins);
     const auto volumes = m.run.pond_volumes_m3();
     std::copy(volumes.begin(), volumes.end(), water.volume_m3.begin());
-    place->levels_m = scene::levels_m(*m.basins, water);
+    place->levels_m = scene::drawn_levels_m(*m.basins, water);
     const auto shapes = scene::water_shapes(*m.basins, water);
     const auto heat = m.run.pond_heat_j_kg();
     for (std::size_t i = 0; i < m.run.patches(); ++i) {

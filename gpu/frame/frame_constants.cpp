@@ -10,6 +10,7 @@
 #include "formulas/light/sun_cookie.h"
 #include "formulas/weather/visibility.h"
 #include "gpu/frame/sun.h"
+#include "scene/basins/water.h"
 #include "scene/scene.h"
 
 namespace petrichor::gpu {
@@ -176,21 +177,27 @@ VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weath
     visible.any = visible.snow || visible.water || w.rain > 0.0f || w.film_albedo > 0.0f ||
                   w.film_smoothness > 0.0f || w.frost > 0.0f;
     if (!frame.place) return visible;
-    visible.place = visible.any = true;
     const PlaceWeather& place = *frame.place;
+    bool film = false;
     for (std::size_t i = 0; i < place.states.size(); i += PLACE_STATE_TEXELS) {
         const glm::vec4& shown = place.states[i];
+        film = film || shown.x > 0.0f;
         visible.water = visible.water || shown.y > 0.0f || shown.z > 0.0f;
         visible.snow = visible.snow || shown.w > 0.0f;
         visible.frost = visible.frost || place.states[i + 1].x > 0.0f;
     }
     if (!place.open.empty()) {
+        film = film || place.open[0].x > 0.0f;
         visible.water = visible.water || place.open[0].y > 0.0f || place.open[0].z > 0.0f;
         visible.snow = visible.snow || place.open[0].w > 0.0f;
         visible.frost = visible.frost || place.open[1].x > 0.0f;
     }
     // Hollows may hold water where no patch does.
-    visible.water = visible.water || !place.shape->labels.empty();
+    for (std::size_t pit = 1; pit < place.levels_m.size(); ++pit)
+        visible.water = visible.water || place.levels_m[pit] > scene::kDry_m;
+    // Where all is dry nobody asks where it is.
+    visible.any = visible.any || film || visible.water || visible.snow || visible.frost;
+    visible.place = visible.any;
     return visible;
 }
 

@@ -44,7 +44,7 @@ void set_si(inout AovPoint p)
                     w.snow_depth_m * p.g.weather.z, w.ice_kg_m2 * p.g.weather.x);
     p.state = vec4(1.0 - w.water_to_snow, w.surface_temperature_k, p.g.weather.x, 1.0);
     if (PLACE == 0u) return;
-    uint patch_number = place_patch(p.position, p.g.base_normal, vec3(0.0));
+    uint patch_number = place_patch(p.position, p.g.base_normal);
     if (patch_number == kNoPatch) {
         if (!place_open(p.g.base_normal, p.g.material)) return;
         patch_number = frame.place.open_patch;

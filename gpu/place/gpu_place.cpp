@@ -41,14 +41,23 @@ void check(const PlaceWeather& place)
                 "Give as many states as there are patches, and a level for every hollow.");
 }
 
+std::vector<std::uint32_t> materials_of(const PlaceWeather& place)
+{
+    std::vector<std::uint32_t> materials;
+    materials.reserve(place.states.size() / PLACE_STATE_TEXELS);
+    for (std::size_t i = 3; i < place.states.size(); i += PLACE_STATE_TEXELS)
+        materials.push_back(static_cast<std::uint32_t>(place.states[i].w));
+    return materials;
+}
+
 }  // namespace
 
 GpuPlace::GpuPlace(const Device& device)
 {
-    make(device, {}, 1);
+    make(device, {}, 1, place_tree({}, {}, {}));
 }
 
-void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t levels)
+void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t levels, const PlaceTree& tree)
 {
     table_.reset();
     states_.reset();
@@ -56,8 +65,7 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
     levels_.reset();
     arena_ = std::make_unique<MemoryArena>(device);
     const auto at_least = [](std::size_t count) { return std::max<std::size_t>(count, 1); };
-    table_ = texel_buffer(*arena_, "place_table", at_least(shape.table.size()) * sizeof(glm::uvec4),
-                          VK_FORMAT_R32G32B32A32_UINT);
+    table_ = texel_buffer(*arena_, "place_table", tree.words.size() * 4, VK_FORMAT_R32_UINT);
     states_ = texel_buffer(
         *arena_, "place_states",
         (std::size_t{shape.grid.patches} + 1) * PLACE_STATE_TEXELS * sizeof(glm::vec4),
@@ -65,9 +73,9 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
     labels_ = texel_buffer(*arena_, "place_labels", at_least(shape.labels.size()) * 4,
                            VK_FORMAT_R32_UINT);
     levels_ = texel_buffer(*arena_, "place_levels", at_least(levels) * 4, VK_FORMAT_R32_SFLOAT);
-    fill(*table_, shape.table);
+    fill(*table_, tree.words);
     fill(*labels_, shape.labels);
-    constants_ = {shape.grid, shape.basin_corner_m, shape.basin_cell_m, shape.basin_width,
+    constants_ = {tree.grid, shape.basin_corner_m, shape.basin_cell_m, shape.basin_width,
                   shape.basin_depth, shared::kNoPatch};
     level_count_ = levels;
 }
@@ -75,14 +83,16 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
 void GpuPlace::update(const Device& device, const PlaceWeather* place)
 {
     if (place == nullptr) {
-        if (shape_) make(device, {}, 1);
+        if (shape_) make(device, {}, 1, place_tree({}, {}, {}));
         shape_.reset();
         return;
     }
-    if (place->shape != shape_ || place->levels_m.size() != level_count_) {
+    std::vector<std::uint32_t> materials = materials_of(*place);
+    if (place->shape != shape_ || place->levels_m.size() != level_count_ || materials != materials_) {
         check(*place);
-        make(device, *place->shape, place->levels_m.size());
+        make(device, *place->shape, place->levels_m.size(), place_tree(place->shape->grid, place->shape->table, materials));
         shape_ = place->shape;
+        materials_ = std::move(materials);
     }
     fill(*states_, place->states);
     // Behind those of the patches.

@@ -6,6 +6,7 @@
 #include "gpu/device/graph.h"
 #include "gpu/device/resources.h"
 #include "gpu/frame/frame.h"
+#include "gpu/place/place_tree.h"
 
 namespace petrichor::gpu {
 
@@ -26,11 +27,12 @@ public:
     GpuBuffer& levels() { return *levels_; }
 
 private:
-    void make(const Device& device, const PlaceShape& shape, std::size_t levels);
+    void make(const Device& device, const PlaceShape& shape, std::size_t levels, const PlaceTree& tree);
 
     std::unique_ptr<MemoryArena> arena_;
     std::unique_ptr<GpuBuffer> table_, states_, labels_, levels_;
     std::shared_ptr<const PlaceShape> shape_;
+    std::vector<std::uint32_t> materials_;  // of the patches
     std::size_t level_count_ = 0;
     shared::PlaceConstants constants_{};
 };

@@ -193,4 +193,13 @@ std::vector<float> levels_m(const Basins& basins, const BasinWater& water)
     return out;
 }
 
+std::vector<float> drawn_levels_m(const Basins& basins, const BasinWater& water)
+{
+    std::vector<float> levels = levels_m(basins, water);
+    for (std::uint32_t pit = 1; pit < levels.size(); ++pit) {
+        if (!(levels[pit] > static_cast<float>(basins.hollow[pit].pit_m))) levels[pit] = kDry_m;
+    }
+    return levels;
+}
+
 }  // namespace petrichor::scene

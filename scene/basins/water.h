@@ -45,6 +45,10 @@ std::vector<WaterShape> water_shapes(const Basins& basins, const BasinWater& wat
 /// max(0, level[label] - height), and all of one water has one level, to the bit.
 std::vector<float> levels_m(const Basins& basins, const BasinWater& water);
 
+/// The same for a picture: kDry_m where a pit is dry, so that ground that lies a little below its cell is dry as well.
+std::vector<float> drawn_levels_m(const Basins& basins, const BasinWater& water);
+inline constexpr float kDry_m = -1.0e30f;
+
 }  // namespace petrichor::scene
 
 #endif

@@ -1,9 +1,12 @@
 // Pixels find the weather of the patch where they lie, and the water of the hollow below them.
 #include <cmath>
 
+#include "scene/basins/water.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/patches.h"
+#include "gpu/place/place_tree.h"
 #include "tests/gpu/gpu_fixture.h"
+#include "tests/gpu/place_street.h"
 
 namespace petrichor::gpu {
 namespace {
@@ -301,6 +304,85 @@ TEST_F(PlaceTest, PondsAreFlatAndAsDeepAsTheirLevel)
     auto low = std::make_shared<PlaceWeather>(*place);
     low->levels_m[1] = -0.01f;
     EXPECT_EQ(aov(renderer->render(from_above(low)), "water", 56, 32), 0.0f);
+}
+
+// Each pixel has the weather of the very patch that the C++ text of the lookup names.
+TEST_F(PlaceTest, PixelsFindThePatchThatTheirFormulaNames)
+{
+    load_floor();
+    const Scene street = place_street::street();
+    const scene::Triangles triangles(street, {});
+    const scene::Tracer tracer(triangles);
+    scene::PatchOptions options;
+    options.cell_m = 0.3f;
+    options.rays = 32;
+    patches = scene::build_patches(tracer, options);
+    renderer->load(street, {});
+    shape->grid = scene::table_grid(patches);
+    shape->table = patches.table;
+    auto place = dry();
+    const auto film_of = [](std::uint32_t patch) { return static_cast<float>(patch % 251) / 255.0f; };
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        place->states[i * PLACE_STATE_TEXELS].x = film_of(i);
+        place->states[i * PLACE_STATE_TEXELS + 3].w = static_cast<float>(patches.material[i]);
+    }
+    const PlaceTree tree = place_tree(shape->grid, shape->table, patches.material);
+    Frame frame = from_above(place);
+    frame.camera = look({5, 4, 6}, {0, 0.5f, 0}, 1.0f);
+    frame.settings.width = frame.settings.height = 96;
+    frame.settings.aovs = {"depth", "position", "normal", "film", "material"};
+    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+        frame.settings.surface_path = path;
+        const RenderResult r = renderer->render(frame);
+        std::size_t seen = 0, wrong = 0, beside = 0;
+        for (int y = 0; y < 96; ++y) {
+            for (int x = 0; x < 96; ++x) {
+                if (std::isinf(aov(r, "depth", x, y))) continue;
+                const glm::vec3 at(aov(r, "position", x, y, 0), aov(r, "position", x, y, 1), aov(r, "position", x, y, 2));
+                const glm::vec3 n(aov(r, "normal", x, y, 0), aov(r, "normal", x, y, 1), aov(r, "normal", x, y, 2));
+                const auto material = static_cast<std::uint32_t>(aov(r, "material", x, y));
+                const glm::vec3 turn = shared::place_turn({x, y}, 0);
+                const shared::PlaceFound found = place_found(tree, at, n, turn, material);
+                if (found.number == shared::kNoPatch) continue;
+                ++seen;
+                wrong += std::abs(aov(r, "film", x, y) - film_of(found.number)) > 1.5e-3f ? 1 : 0;
+                beside += found.number != shared::place_leaf_patch(place_leaves(tree, at, n, glm::vec3(0.0f)).own) ? 1 : 0;
+            }
+        }
+        EXPECT_GT(seen, 4000u);
+        EXPECT_GT(beside, 1000u);
+        // What lies on a border to the last bit, or between two materials.
+        EXPECT_LT(wrong, seen / 100);
+    }
+}
+
+// Where nothing is wet, white or frozen no pixel asks its patch: to the byte the picture without patches, as that of patches
+// of which one out of sight is wet.
+TEST_F(PlaceTest, WhereAllIsDryThePictureIsThatWithoutPlaces)
+{
+    load_floor();
+    renderer->load(scene_of({quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), quad({20, 0, 22}, {4, 0, 0}, {0, 0, -4})},
+                            {plain_material(glm::vec3(0.3f))}),
+                   {});
+    shape->basin_corner_m = {20.0f, 18.0f};
+    shape->basin_cell_m = 4.0f;
+    shape->basin_width = shape->basin_depth = 1;
+    shape->labels = {1};
+    auto place = dry();
+    place->levels_m = {0.0f, scene::kDry_m};
+    Frame frame = from_above(place);
+    frame.settings.aovs = {"depth", "film", "water", "position"};
+    const RenderResult asked = renderer->render(frame);
+    frame.place = nullptr;
+    EXPECT_EQ(renderer->render(frame).beauty, asked.beauty);
+    auto pond = std::make_shared<PlaceWeather>(*place);
+    pond->levels_m = {0.0f, 0.02f};
+    frame.place = pond;
+    const RenderResult beside = renderer->render(frame);
+    EXPECT_EQ(aov(beside, "water", 32, 32), 0.0f);
+    for (int x = 4; x < 60; x += 5) EXPECT_NEAR(luminance(pixel(beside, x, 32)), luminance(pixel(asked, x, 32)), 1e-3f * luminance(pixel(asked, x, 32)));
+    frame.camera = look({22, 6, 20}, {22, 0, 20}, 0.7f);
+    EXPECT_EQ(aov(renderer->render(frame), "water", 32, 32), 1.0f);
 }
 
 TEST_F(PlaceTest, WhatDoesNotBelongTogetherIsRefused)

@@ -200,6 +200,11 @@ TEST(Basins, EvaporationLowersTheLevelAndPartsTheWater)
     evaporate(basins, water, std::vector<double>(basins.pits + 1, 100.0));
     EXPECT_EQ(stored_m3(basins, water), 0.0);
     EXPECT_EQ(levels_m(basins, water)[left], 2.0f);
+    // In a picture what is dry is so below the height of its pit too.
+    EXPECT_EQ(drawn_levels_m(basins, water)[left], kDry_m);
+    poured(basins, water, left, 0.25);
+    EXPECT_EQ(drawn_levels_m(basins, water)[left], levels_m(basins, water)[left]);
+    EXPECT_EQ(drawn_levels_m(basins, water)[right], kDry_m);
 }
 
 TEST(Basins, EvaporationClosesTheBooks)

@@ -1,0 +1,241 @@
+#include "gpu/place/place_tree.h"
+
+#include <algorithm>
+#include <array>
+
+namespace petrichor::shared {
+namespace {
+
+using namespace petrichor::shared_names;
+
+// The words behind the shared text.
+struct PlaceLookup {
+    std::span<const std::uint32_t> words;
+
+    uint place_word(uint index) const { return words[index]; }
+
+#include "formulas/light/place_lookup.inc"
+};
+
+}  // namespace
+}  // namespace petrichor::shared
+
+namespace petrichor::gpu {
+namespace {
+
+using shared::kNoPlace;
+using shared::kPlaceCut;
+using shared::kPlaceWords;
+
+// Of all six axes. More levels of roots would save a step of those below them.
+constexpr std::int64_t kMostRoots = 1 << 17;
+
+struct Leaf {
+    glm::ivec3 cell;  // counted in its own level
+    int level;
+    int axis;
+    std::uint32_t patch;
+    std::uint32_t connected;  // 27 bits
+};
+
+int along_of(int axis) { return (axis / 2 + 1) % 3; }
+int across_of(int axis) { return (axis / 2 + 2) % 3; }
+
+glm::ivec3 step_of(int axis, int along, int across)
+{
+    glm::ivec3 step(0);
+    step[along_of(axis)] = along;
+    step[across_of(axis)] = across;
+    return step;
+}
+
+bool sees(const Leaf& leaf, const glm::ivec3& step)
+{
+    const glm::ivec3 way = step + 1;
+    return ((leaf.connected >> (way.x + 3 * way.y + 9 * way.z)) & 1u) != 0;
+}
+
+std::uint32_t word_of(const Leaf& leaf)
+{
+    std::uint32_t word = leaf.patch | static_cast<std::uint32_t>(leaf.level) << 16;
+    for (int way = 0; way < 9; ++way) {
+        if (sees(leaf, step_of(leaf.axis, way % 3 - 1, way / 3 - 1))) word |= 1u << (20 + way);
+    }
+    return word;
+}
+
+std::vector<Leaf> leaves_of(const shared::PatchGrid& grid, std::span<const glm::uvec4> table)
+{
+    std::vector<Leaf> leaves;
+    for (const glm::uvec4& entry : table) {
+        if (entry.z >= grid.patches) continue;
+        const auto x = static_cast<int>(entry.x & 0x7ffffu);
+        const auto y = static_cast<int>(entry.x >> 19 | (entry.y & 63u) << 13);
+        const auto z = static_cast<int>(entry.y >> 6 & 0x7ffffu);
+        leaves.push_back({{x, y, z},
+                          static_cast<int>(entry.y >> 28),
+                          static_cast<int>(entry.y >> 25 & 7u),
+                          entry.z,
+                          entry.w});
+    }
+    return leaves;
+}
+
+// The finest level of roots whose box is not too large.
+struct Roots {
+    int level = 0;
+    glm::ivec3 first{0}, across{0};
+
+    explicit Roots(std::span<const Leaf> leaves)
+    {
+        glm::ivec3 low(1 << 19), high(0);
+        for (const Leaf& leaf : leaves) {
+            low = glm::min(low, leaf.cell << leaf.level);
+            high = glm::max(high, (leaf.cell << leaf.level) + ((1 << leaf.level) - 1));
+        }
+        for (bool fits = false; !fits; level += fits ? 0 : 1) {
+            first = low >> level;
+            across = (high >> level) - first + 1;
+            fits = std::max({across.x, across.y, across.z}) <= shared::kMostRootsAcross &&
+                   std::int64_t{6} * across.x * across.y * across.z <= kMostRoots;
+        }
+    }
+};
+
+// Writes a word for all cells of `side` across from a place in a box of words.
+void fill(std::vector<std::uint32_t>& words, std::size_t first, const glm::ivec3& across, const glm::ivec3& at, int side,
+          std::uint32_t word)
+{
+    for (int z = at.z; z < at.z + side; ++z) {
+        for (int y = at.y; y < at.y + side; ++y) {
+            const auto row = first + (static_cast<std::size_t>(z) * static_cast<std::size_t>(across.y) + static_cast<std::size_t>(y)) *
+                                         static_cast<std::size_t>(across.x);
+            std::fill_n(words.begin() + static_cast<std::ptrdiff_t>(row) + at.x, side, word);
+        }
+    }
+}
+
+void add_leaf(std::vector<std::uint32_t>& words, std::size_t roots, const Roots& box, const Leaf& leaf)
+{
+    int level = box.level;
+    glm::ivec3 across = box.across;
+    const int over = std::max(leaf.level - level, 0);
+    glm::ivec3 at = leaf.level >= level ? (leaf.cell << over) - box.first : (leaf.cell >> (level - leaf.level)) - box.first;
+    std::size_t first = roots + static_cast<std::size_t>(leaf.axis) * static_cast<std::size_t>(across.x) *
+                                    static_cast<std::size_t>(across.y) * static_cast<std::size_t>(across.z);
+    while (leaf.level < level) {
+        const int down = std::min(level, 2);
+        const auto index = first + (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(across.y) + static_cast<std::size_t>(at.y)) *
+                                       static_cast<std::size_t>(across.x) + static_cast<std::size_t>(at.x);
+        if (words[index] == kNoPlace) {
+            words[index] = kPlaceCut | static_cast<std::uint32_t>(words.size());
+            words.insert(words.end(), std::size_t{1} << (3 * down), kNoPlace);
+        }
+        first = words[index] & ~kPlaceCut;
+        level -= down;
+        across = glm::ivec3(1 << down);
+        const glm::ivec3 cell = leaf.level >= level ? leaf.cell << (leaf.level - level) : leaf.cell >> (level - leaf.level);
+        at = cell & ((1 << down) - 1);
+    }
+    fill(words, first, across, at, 1 << (leaf.level - level), word_of(leaf));
+}
+
+// Patches of other materials in a cell beside a leaf, next to it.
+void add_beside(std::vector<std::uint32_t>& found, shared::PlaceLookup lookup, const shared::PatchGrid& grid, const Leaf& leaf,
+                const glm::ivec3& step, std::span<const std::uint32_t> materials)
+{
+    if (!sees(leaf, step)) return;
+    const int side = 1 << leaf.level;
+    const int parts = std::min(side, 4);
+    for (int k = 0; k < parts * parts; ++k) {
+        glm::ivec3 at = leaf.cell << leaf.level;
+        for (int d = 0; d < 3; ++d) {
+            const int part = d == leaf.axis / 2 ? k % parts : k / parts;
+            at[d] += step[d] > 0 ? side : step[d] < 0 ? -1 : (2 * part + 1) * side / (2 * parts);
+        }
+        const std::uint32_t there = lookup.place_leaf(grid, at, leaf.axis);
+        if (there == kNoPlace) continue;
+        const std::uint32_t patch = shared::place_leaf_patch(there);
+        const bool known = std::find(found.begin(), found.end(), patch) != found.end();
+        if (!known && materials[patch] != materials[leaf.patch]) found.push_back(patch);
+    }
+}
+
+// One patch for each side of a leaf, straight over it rather than over its corners; as many materials as there are.
+std::array<std::uint32_t, 4> sides_of(const shared::PlaceLookup& lookup, const shared::PatchGrid& grid, const Leaf& leaf,
+                                      std::span<const std::uint32_t> materials)
+{
+    constexpr std::array<glm::ivec2, 4> kSides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    std::array<std::vector<std::uint32_t>, 4> found;
+    for (std::size_t side = 0; side < 4; ++side) {
+        const glm::ivec2 s = kSides[side];
+        for (const int corner : {0, 1, -1}) {
+            const glm::ivec2 way = s + corner * glm::ivec2(s.y, s.x);
+            add_beside(found[side], lookup, grid, leaf, step_of(leaf.axis, way.x, way.y), materials);
+        }
+    }
+    std::array<std::uint32_t, 4> taken;
+    taken.fill(leaf.patch);
+    std::vector<std::uint32_t> known{materials[leaf.patch]};
+    const auto take_new = [&](std::size_t side, std::span<const std::uint32_t> of) {
+        for (const std::uint32_t patch : of) {
+            if (std::find(known.begin(), known.end(), materials[patch]) != known.end()) continue;
+            taken[side] = patch;
+            known.push_back(materials[patch]);
+            return;
+        }
+    };
+    for (std::size_t side = 0; side < 4; ++side) take_new(side, found[side]);
+    for (std::size_t side = 0; side < 4; ++side) {
+        for (std::size_t other = 0; other < 4 && taken[side] == leaf.patch; ++other) take_new(side, found[other]);
+        if (taken[side] == leaf.patch && !found[side].empty()) taken[side] = found[side].front();
+    }
+    return taken;
+}
+
+void put_sides(std::vector<std::uint32_t>& words, const shared::PatchGrid& grid, const Leaf& leaf,
+               std::span<const std::uint32_t> materials)
+{
+    const std::array<std::uint32_t, 4> sides = sides_of({words}, grid, leaf, materials);
+    for (std::size_t side = 0; side < 4; ++side)
+        words[std::size_t{leaf.patch} * kPlaceWords + 1 + side] = sides[side] | materials[sides[side]] << 16;
+}
+
+}  // namespace
+
+PlaceTree place_tree(const shared::PatchGrid& grid, std::span<const glm::uvec4> table,
+                     std::span<const std::uint32_t> materials)
+{
+    PlaceTree tree;
+    const std::vector<Leaf> leaves = grid.levels > 0 ? leaves_of(grid, table) : std::vector<Leaf>{};
+    if (leaves.empty()) {
+        tree.words.assign(1, kNoPlace);
+        return tree;
+    }
+    const Roots box(leaves);
+    const shared::PatchKey first = shared::patch_key(box.first, 0, 0);
+    tree.grid = {grid.cell_m,
+                 static_cast<std::uint32_t>(box.level + 1) | static_cast<std::uint32_t>(box.across.x) << 5 |
+                     static_cast<std::uint32_t>(box.across.y) << 14 | static_cast<std::uint32_t>(box.across.z) << 23,
+                 grid.patches, first.low, first.high};
+    const std::size_t roots = std::size_t{grid.patches} * kPlaceWords;
+    tree.words.assign(roots + std::size_t{6} * static_cast<std::size_t>(box.across.x) * static_cast<std::size_t>(box.across.y) *
+                                  static_cast<std::size_t>(box.across.z),
+                      kNoPlace);
+    for (const Leaf& leaf : leaves) add_leaf(tree.words, roots, box, leaf);
+    for (std::uint32_t patch = 0; patch < grid.patches; ++patch) tree.words[std::size_t{patch} * kPlaceWords] = materials[patch];
+    for (const Leaf& leaf : leaves) put_sides(tree.words, tree.grid, leaf, materials);
+    return tree;
+}
+
+shared::PlaceFound place_found(const PlaceTree& tree, glm::vec3 x, glm::vec3 n, glm::vec3 turn, std::uint32_t material)
+{
+    return shared::PlaceLookup{tree.words}.place_found(tree.grid, x, n, turn, material);
+}
+
+shared::PlaceLeaves place_leaves(const PlaceTree& tree, glm::vec3 x, glm::vec3 n, glm::vec3 turn)
+{
+    return shared::PlaceLookup{tree.words}.place_leaves(tree.grid, x, n, turn);
+}
+
+}  // namespace petrichor::gpu
