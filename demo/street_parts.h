@@ -78,9 +78,9 @@ RoadPoint road_at(const Kit& kit, float x, float z);
 /// Pavement level at a distance from the axis of the road, on either side.
 float pavement_height(float x);
 
-/// A leaf of two triangles, folded along its middle, that hangs from `at` and faces outward.
+/// A leaf of two triangles, folded along its middle, that hangs from `at` and faces outward. half_width: over its length.
 void add_leaf(MeshBuilder& plants, const glm::vec3& at, const glm::vec3& outward, float size,
-              std::uint32_t hash, const glm::vec3& color);
+              std::uint32_t hash, const glm::vec3& color, float half_width = 0.42f);
 
 void add_ground(Kit& kit);
 void add_houses(Kit& kit);

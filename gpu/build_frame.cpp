@@ -500,7 +500,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         r.surface_maps->generated = true;
     }
     if (weathered) {
-        add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed);
+        // Nobody asks for rings without rain.
+        if (frame.weather.rain > 0.0f) add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed);
         add_flow(graph, *r.surface_maps, time_s);
     }
     const FallingPlan plan = plan_of(frame, sun, r);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "gpu/upload/gpu_scene.h"
 #include "gpu/upload/material_constants.h"
+#include "gpu/upload/parallax_ends.h"
 #include "gpu/upload/wide_ground.h"
 
 namespace petrichor::gpu {
@@ -142,6 +143,15 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
     sources_ = current_ = scene.materials;
     wide_ground_ = wide_ground(scene);
     const SamplerHandle& plain = sampler(device, Wrap::Repeat, Wrap::Repeat, false);
+    // Where the height map of a material does not go on, PARALLAX_ENDS_...
+    const auto relief_ends = [this](std::size_t texture) {
+        for (const auto& [key, handle] : samplers_) {
+            if (&handle != image_samplers_[texture]) continue;
+            const auto clamps = [](int wrap) { return wrap == static_cast<int>(Wrap::Clamp); };
+            return (clamps(key / 8) ? PARALLAX_ENDS_U : 0u) | (clamps(key % 8 / 2) ? PARALLAX_ENDS_V : 0u);
+        }
+        return 0u;
+    };
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& source = scene.materials[i];
         GpuMaterial material;
@@ -182,6 +192,8 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
             material.parallax = static_cast<std::uint32_t>(source.weather.parallax);
         if (material.parallax != PARALLAX_NONE && source.weather.parallax_level >= 0.0f)
             material.parallax |= PARALLAX_LEVEL;
+        if (material.parallax != PARALLAX_NONE && source.alpha_mode == AlphaMode::Mask)
+            material.parallax |= relief_ends(static_cast<std::size_t>(source.weather.height.texture));
         materials_.push_back(std::move(material));
         set_material(i, sources_[i]);
     }

@@ -36,6 +36,8 @@ constexpr float kAlongSmall_m = 0.055f;  // .. on a small model, whose pads of s
 constexpr float kRoomy = 0.7f;        // edges are so long, a metre from a rim ..
 constexpr float kRoomySmall = 0.35f;  // .. on a small model
 constexpr float kTrack_m = 0.05f;     // edges where the snow is trodden
+constexpr float kBar_m = 0.05f;       // .. and on a bar, over which the snow bends as it does beside it ..
+constexpr float kOnBar_m = 0.03f;     // .. so near to its slot
 
 // Whether tracks cross an edge.
 bool is_trodden(const SnowCapOptions& options, const vec3& a, const vec3& b)
@@ -132,6 +134,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     const EdgeGrid slots(std::move(borders.slots));
     const EdgeGrid closed(std::move(borders.closed));
     EdgeGrid low(std::move(borders.low));
+    const EdgeGrid bars(std::move(borders.bars));
     // Fine at the rims, coarse between them.
     caps.finest_m = options.finest_m;
     SubdivideOptions fine;
@@ -165,6 +168,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
             const float beside = std::sqrt(std::max(length * length - across * across, 0.0f));
             return across > std::max(least, roomy) || beside > std::max({kAlong * least, along_m, roomy});
         };
+        if (length > std::max(least, kBar_m) && bars.nearest(middle, normal / size).distance_m < kOnBar_m) return true;
         return bends(edges.nearest(middle, normal / size)) || bends(slots.nearest(middle, normal / size));
     };
     mesh = subdivide(looked, fine);

@@ -159,6 +159,63 @@ TEST_F(Cutout, HolesLieInTheRelief)
     }
 }
 
+// A height map whose sampler ends at its edges ends the relief there: a quad has its silhouette, on both surface paths and in its
+// shadow. One that repeats goes on.
+TEST_F(Cutout, AReliefThatEndsHasItsOwnSilhouette)
+{
+    Material m = plain_material(glm::vec3(0.5f));
+    m.alpha_mode = AlphaMode::Mask;
+    m.weather.height.texture = 2;  // 0.3 m below the quad everywhere
+    m.weather.height_scale_m = 0.3f;
+    m.weather.parallax = scene::Parallax::Occlusion;
+    const auto ends = [&](bool u, bool v) {
+        std::vector<Texture> all = textures();
+        all[2].wrap_u = u ? Wrap::Clamp : Wrap::Repeat;
+        all[2].wrap_v = v ? Wrap::Clamp : Wrap::Repeat;
+        return all;
+    };
+    const auto seen = [&](bool u, bool v, SurfacePath path) {
+        renderer->load(standing(m), ends(u, v));
+        const RenderResult r = renderer->render(seen_from({2.0f, 0, 2.4f}, path));
+        int count = 0;
+        for (int x = 0; x < 64; ++x) count += there(r, x, 32) ? 1 : 0;
+        return count;
+    };
+    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+        const int all = seen(false, false, path);
+        EXPECT_EQ(seen(false, true, path), all) << "no row is beyond it in the middle";
+        EXPECT_LT(seen(true, true, path), all - 2);
+        EXPECT_GT(seen(true, true, path), all / 2);
+        EXPECT_NEAR(seen(true, true, path), seen(true, false, SurfacePath::Fragment), 1);
+    }
+    m.alpha_mode = AlphaMode::Opaque;
+    EXPECT_EQ(seen(true, true, SurfacePath::Fragment), seen(false, false, SurfacePath::Fragment)) << "what has no holes stays whole";
+    m.alpha_mode = AlphaMode::Mask;
+    const auto shadow_m = [&](bool u) {
+        renderer->load(scene_of({quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 1), quad({-1, 1, 1}, {2, 0, 0}, {0, 0, -2})},
+                                {m, plain_material(glm::vec3(0.8f))}),
+                       ends(u, u));
+        Frame frame;
+        frame.camera = look({-1, 5, 0}, {-1, 0, 0});  // the floor from x -2.5 to 0.5
+        frame.camera.orthographic_height_m = 3.0f;
+        frame.settings.width = frame.settings.height = 96;
+        frame.settings.samples = 1;
+        frame.settings.image_based_light = false;
+        frame.settings.exposure = 1.0f;
+        frame.weather.visibility_m = 1e9f;
+        frame.sky.sun_elevation_rad = 0.7853982f;
+        frame.sky.sun_azimuth_rad = 1.5707963f;
+        const RenderResult r = renderer->render(frame);
+        float bright = 0.0f;
+        for (int x = 0; x < 40; ++x) bright = std::max(bright, pixel(r, x, 48).g);
+        int dark = 0;  // left of the quad itself
+        for (int x = 0; x < 46; ++x) dark += pixel(r, x, 48).g < 0.5f * bright ? 1 : 0;
+        return 3.0f * static_cast<float>(dark) / 96.0f;
+    };
+    const float grazing = 1.0f - std::sqrt(0.5f);
+    EXPECT_NEAR(shadow_m(false) - shadow_m(true), 0.3f * (1.0f - grazing * grazing), 0.07f);
+}
+
 // A lattice over a floor under a slanted light: its shadow begins where the light meets the relief, which lies 0.3 m
 // below the lattice everywhere.
 TEST_F(Cutout, ShadowsHaveTheHolesOfTheRelief)

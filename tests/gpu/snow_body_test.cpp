@@ -92,6 +92,38 @@ TEST_F(SnowBodyTest, OffItIsThePictureWithoutIt)
     EXPECT_EQ(renderer->render(off).beauty, flat.beauty) << "and off again";
 }
 
+// A material's mask keeps deep snow away as it does thin snow: by a texture where it is seen, by its vertices in its shape too.
+TEST_F(SnowBodyTest, MasksKeepDeepSnowAway)
+{
+    const auto ground_shown = [&](const Scene& masked, std::uint8_t mask) {
+        Texture even;
+        even.name = "even";
+        even.width = even.height = 1;
+        even.mips = {{std::byte{mask}, std::byte{mask}, std::byte{mask}, std::byte{255}}};
+        const scene::Triangles triangles(masked, {});
+        const scene::Tracer tracer(triangles);
+        renderer->load(masked, {even}, std::make_shared<const scene::SnowCaps>(scene::build_snow_caps(tracer, {})));
+        Frame f = frame(0.15f);
+        f.settings.aovs = {"position", "snow"};
+        f.camera = look({1.6f, 2.0f, 1.6f}, {1.6f, 0.0f, 1.59f});
+        f.camera.orthographic_height_m = 0.5f;
+        const RenderResult r = renderer->render(f);
+        return glm::vec2(aov(r, "snow", kSize / 2, kSize / 2), aov(r, "position", kSize / 2, kSize / 2, 1));
+    };
+    Scene masked = scene;
+    masked.materials[0].weather.snow_mask.texture = 0;
+    const glm::vec2 white = ground_shown(masked, 255);
+    EXPECT_GT(white.x, 0.95f);
+    EXPECT_GT(white.y, 0.1f);
+    EXPECT_LT(ground_shown(masked, 0).x, 0.02f);
+    Scene by_vertices = scene;
+    Primitive& floor = by_vertices.meshes[0].primitives[0];
+    floor.weather.assign(floor.positions.size(), glm::vec4(1, 1, 0, 1));
+    const glm::vec2 bare = ground_shown(by_vertices, 255);
+    EXPECT_LT(bare.x, 0.02f);
+    EXPECT_NEAR(bare.y, 0.0f, 0.01f);
+}
+
 TEST_F(SnowBodyTest, AFrameAloneIsTheFrameOfARun)
 {
     renderer->load(scene, {}, caps);

@@ -260,6 +260,34 @@ TEST_F(Surface, RingsLieInTheWorld)
     EXPECT_LT(difference(calm, calm, 1), 1e-4f);
 }
 
+// A street's puddle, five metres from an eye: a pixel of 9 mm is an inch long on the ground, and rings of ten centimetres are seen.
+// Nobody draws them where it does not rain.
+TEST_F(Surface, RingsAreSeenAFewMetresAway)
+{
+    Frame frame = from_above({"cover_normal"});
+    flood(frame);
+    frame.settings.time_s = 0.4;
+    frame.camera = look({0, 1.7f, 0}, {0, 0, -5}, 0.08f);
+    Material m = plain_material(glm::vec3(0.5f));
+    m.weather.wetness = scene::Wetness::Ripples;
+    const auto deviation = [&](float rain) {
+        frame.weather.rain = rain;
+        const RenderResult r = shot(scene_of({quad({-2, 0, 0}, {4, 0, 0}, {0, 0, -10})}, {m}), frame);
+        const bool drawn = std::any_of(r.passes.begin(), r.passes.end(), [](const PassTime& pass) { return pass.name == "ripple"; });
+        EXPECT_EQ(drawn, rain > 0.0f);
+        double sum = 0.0;
+        for (int i = 0; i < kSize * kSize; ++i) {
+            const float x = aov(r, "cover_normal", i % kSize, i / kSize, 0), z = aov(r, "cover_normal", i % kSize, i / kSize, 2);
+            sum += static_cast<double>(x * x + z * z);
+        }
+        return std::sqrt(sum / (kSize * kSize));
+    };
+    EXPECT_LT(deviation(0.0f), 1e-3);
+    const double rings = deviation(1.0f);
+    RecordProperty("deviation", std::to_string(rings));
+    EXPECT_GT(rings, 0.009);
+}
+
 // Lux's packed map: the puddle mask in red, the height in green.
 TEST_F(Surface, OneMapHoldsMaskAndHeight)
 {

@@ -26,6 +26,13 @@ const Street& street()
     return made;
 }
 
+const vec3 kAfar(0.9f, 1.5f, 6.0f);
+const SnowCaps& caps_from_afar()
+{
+    static const SnowCaps made = caps_seen_from(street().scene, kAfar);
+    return made;
+}
+
 // Kerbs of 11 cm, their blocks tilted and bevelled, with joints between; a gutter of blocks before them, paving or a verge
 // behind. Along what lies in the open.
 struct Kerb {
@@ -70,8 +77,8 @@ TEST(SnowOnKerbs, LeavesNoStoneBetween)
 // Nor farther from the eye, at joints of both the kerb and its gutter, under snow that is hardly as deep as the kerb is high.
 TEST(SnowOnKerbs, LeavesNoStoneAtJointsAndFarAway)
 {
-    const vec3 eye(0.9f, 1.5f, 6.0f);
-    const SnowCaps caps = caps_seen_from(street().scene, eye);
+    const vec3 eye = kAfar;
+    const SnowCaps& caps = caps_from_afar();
     struct Look {
         const char* name;
         float depth, side, from_z, to_z, most;
@@ -117,6 +124,33 @@ TEST(SnowOnKerbs, IsOneSheet)
             EXPECT_LT(steps, all / 500) << kerb.name << " " << depth;
             EXPECT_LT(creases, all / 100) << kerb.name << " " << depth;
         }
+    }
+}
+
+// The same over the grating in the right gutter, whose bars lie five centimetres apart.
+TEST(SnowOnKerbs, IsOneSheetOverTheGrating)
+{
+    const SnowCaps& caps = caps_from_afar();
+    for (const float depth : {0.087f, 0.15f}) {
+        const Snowed snowed(street().scene, caps, depth);
+        int all = 0, steps = 0, creases = 0;
+        for (float x = 2.25f; x < 2.45f; x += 0.021f) {
+            Snowed::Seen before;
+            for (float z = 0.6f; z < 1.2f; z += 0.005f) {
+                const auto seen = snowed.look({x, 3.0f, z}, {x, 0.0f, z});
+                if (seen.snow && before.snow) {
+                    ++all;
+                    steps += std::abs(seen.at.y - before.at.y) > 0.01f ? 1 : 0;
+                    creases += glm::dot(seen.normal, before.normal) < 0.9f ? 1 : 0;
+                }
+                before = seen;
+            }
+        }
+        RecordProperty("steps" + std::to_string(depth), steps);
+        RecordProperty("creases" + std::to_string(depth), creases);
+        EXPECT_GT(all, 1000);
+        EXPECT_LT(steps, all / 100) << depth;
+        EXPECT_LT(creases, all / 12) << depth << ": at its frame alone";
     }
 }
 

@@ -6,6 +6,7 @@
 #include "formulas/weather/parallax.h"
 #include "gpu/passes/depth_maps/depth_holes.glsl"
 #include "gpu/passes/depth_maps/depth_maps_io.h"
+#include "gpu/upload/parallax_ends.h"
 
 layout(constant_id = DEPTH_SPEC_PARALLAX) const uint PARALLAX = PARALLAX_SIMPLE;
 
@@ -52,6 +53,7 @@ void main()
 #define RELIEF_STEPS material.parallax_steps
 #include "formulas/weather/relief_search.inc"
         uv += way * clamp(t, 0.0, 1.0);
+        if (beyond_relief(PARALLAX, slot_uv(TEXTURE_HEIGHT, uv))) discard;
     }
     const vec2 at = slot_uv(TEXTURE_BASE_COLOR, uv);
     const float alpha = textureGrad(base_color_map, at, slot_uv(TEXTURE_BASE_COLOR, uv + dx) - at,

@@ -76,7 +76,9 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     const bool bodied = (SNOW & SNOW_BODY) != 0u && at.weather.a <= 0.0;
     const float over_m = SNOW != 0u && !bodied ? stands_over_m(at) : 0.0;
     const SnowBody own_body = snow_body(at, over_m, here.open);
-    const float body = own_body.share;
+    // What the material's mask keeps free is free under deep snow too.
+    float body = own_body.share;
+    if ((SNOW & SNOW_BODY) != 0u) body *= unique_mask(at);
     const float amount = max(saturate(amount_raw), body);
     const vec3 smoothed = normalize(
         to_world(f, normalize(mix(mapped, vec3(0.0, 0.0, 1.0), saturate(amount_raw * 0.5)))));

@@ -4,6 +4,7 @@
 
 #include "formulas/noise/noise.h"
 #include "gpu/passes/surface/textures.glsl"
+#include "gpu/upload/parallax_ends.h"
 
 // Not where water shifts the lookup to: a hole stays where it is.
 float surface_alpha(SurfaceInput at)
@@ -38,6 +39,8 @@ float chance(SurfaceInput at)
 // Cut out by the alpha test, or let through by chance: as often as it is transparent.
 bool hole_in(SurfaceInput at, float alpha)
 {
+    if ((PARALLAX & (PARALLAX_ENDS_U | PARALLAX_ENDS_V)) != 0u &&
+        beyond_relief(PARALLAX, coordinates(TEXTURE_HEIGHT, at, vec2(0.0)).at)) return true;
     if (material.alpha_mode == ALPHA_MASK && alpha < material.alpha_cutoff) return true;
     return (material.alpha_mode == ALPHA_BLEND || material.transmission_factor > 0.0) &&
            alpha <= chance(at);

@@ -78,8 +78,12 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
 vec3 ripple_normal(SurfaceInput at, StandingWater water, float open)
 {
     const float tiling = frame.look.ripple_tiling;
-    // Of whole levels a CPU reads one.
-    const int level = quad_level(frame.ripple_bits, at.position_dx.xz * tiling, at.position_dy.xz * tiling);
+    // Of whole levels a CPU reads one: by the shorter side of the pixel, which is all that is left of rings a few metres
+    // away. Along the longer one samples fall on different sides of them, as glints do.
+    const vec2 dx = at.position_dx.xz * tiling;
+    const vec2 dy = at.position_dy.xz * tiling;
+    const vec2 shorter = dot(dx, dx) < dot(dy, dy) ? dx : dy;
+    const int level = quad_level(frame.ripple_bits, shorter, shorter);
     const vec2 xy = textureLod(ripple_map, at.position.xz * tiling, float(level)).xy;
     return mix(vec3(0.0, 0.0, 1.0), unpack_normal(xy, frame.look.ripple_strength),
                water.deep * saturate(at.normal.y) * saturate(open * 2.0));

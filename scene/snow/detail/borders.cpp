@@ -21,6 +21,8 @@ constexpr float kStepOfSize = 0.02f;  // .. of a small model, of its size: its s
 constexpr float kLowStep = 0.25f;  // of that step: lower ones are joints
 
 constexpr float kWidestGap_m = 0.14f;
+constexpr float kNarrowSlot_m = 0.008f;
+constexpr float kWidestBar_m = 0.05f;
 constexpr float kBevel_m = 0.03f;
 constexpr float kBesideJoint_m = 0.03f;
 constexpr float kOver_m = 0.12f;    // rays start so high
@@ -92,6 +94,25 @@ float gap_beyond_m(const Tracer& tracer, const vec3& at, const vec2& out)
 }
 
 namespace {
+
+// Whether a border is that of a bar over lower ground, along a slot to another one as high as it is.
+bool at_a_bar(const Tracer& tracer, const vec3& at, const vec2& out)
+{
+    const float level = kLowStep * step_m(tracer);
+    enum class Height { Lower, Same, Higher };
+    const auto height = [&](float gap) {
+        const vec3 from = at + vec3(out.x, 0.0f, out.y) * gap + vec3(0.0f, kOver_m, 0.0f);
+        const RayHit hit = tracer.nearest({from, vec3(0.0f, -1.0f, 0.0f), kOver_m + level});
+        return !hit.hit() ? Height::Lower : hit.distance_m > kOver_m - level ? Height::Same : Height::Higher;
+    };
+    if (height(kNarrowSlot_m) != Height::Lower) return false;
+    bool narrow = false;
+    for (float width = 2.0f * kNarrowSlot_m; width < kWidestBar_m && !narrow; width += kNarrowSlot_m) narrow = height(-width) == Height::Lower;
+    if (!narrow) return false;
+    for (float gap = 2.0f * kNarrowSlot_m; gap < kWidestGap_m; gap += kNarrowSlot_m)
+        if (const Height there = height(gap); there != Height::Lower) return there == Height::Same;
+    return false;
+}
 
 struct Side {
     vec3 from, to, inner;
@@ -196,6 +217,7 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
                          : piece.gap_m < 1.0f     ? borders.slots
                                                   : borders.open;
             list.push_back(piece);
+            if (there == Beyond::Ground && !joint && glm::length(along) > kBevel_m && at_a_bar(tracer, middle, out)) borders.bars.push_back(piece);
             if (there == Beyond::Ground && !joint && piece.drop_m > kLowStep * step_m(tracer)) borders.low.push_back(piece);
         }
     }

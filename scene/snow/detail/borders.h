@@ -36,9 +36,10 @@ Beyond beyond(const Tracer& tracer, const glm::vec3& at, const glm::vec2& out);
 float gap_beyond_m(const Tracer& tracer, const glm::vec3& at, const glm::vec2& out);
 
 /// All borders of a mesh, in pieces of at most 0.25 m: open where the ground falls away beyond them, slots where it
-/// goes on soon after, closed where a wall rises or ground goes on after a joint; low of the closed, where it goes on lower.
+/// goes on soon after, closed where a wall rises or ground goes on after a joint; low of the closed, where it goes on lower; bars of them,
+/// where it goes on as high beyond a slot with lower ground in it.
 struct Borders {
-    std::vector<Border> open, slots, closed, low;
+    std::vector<Border> open, slots, closed, low, bars;
 };
 Borders borders_of(const CutMesh& mesh, const Tracer& tracer);
 

@@ -136,7 +136,8 @@ void fill_shares(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& n
             const float open = shared::smooth_edge(kHidden, 0.8f, sky + ragged * std::min(1.0f, 4.0f * (1.0f - sky)));
             const float slope = snow_on_slope(normals[number].y);
             const float far = nearest_eye_m(options, point.base_m) / options.reach_m;
-            point.broad = open * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
+            // Blue of the vertices: where snow may lie at all.
+            point.broad = open * (1.0f - shared::smooth_edge(0.7f, 0.97f, far)) * std::clamp(p.weather[v].z, 0.0f, 1.0f);
             point.share = point.broad * slope;
         }
     }
