@@ -65,7 +65,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 74;
+SHARED_CONST int kProbeKinds = 75;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -648,6 +648,15 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(falloff, lit.front.x - lit.back.y, kept.x + kept.y, kept.z);
     }
     if (kind == 73) return vec4(weak_shadow(a.x, b.x), weak_shadow(a.y, 1.0f), weak_shadow(a.z, 0.0f), weak_shadow(0.0f, b.y));
+    if (kind == 74) {
+        const vec3 v = probe_direction(a.x, 0.02f + 0.96f * a.y);
+        const vec3 n = normalize(v + probe_direction(a.z, a.w));
+        const float rough = 0.2f + 0.8f * b.w;
+        const Lobe lobe = with_all_light(make_lobe(n, v, splat3(0.1f), vec3(b.x, b.y, b.z), rough * rough), facet_roughness(rough, c.w - 0.5f),
+                                         lost_along_grain(rough, c.w - 0.5f));
+        const vec3 lit = shade_lobe(lobe, normalize(2.0f * n + probe_direction(c.x, c.y) - v));
+        return vec4(lit.x, lit.y, lit.z, lost_at(facet_loss(0.05f + 0.95f * c.z), c.w) + lost_in_all(c.z));
+    }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
 }

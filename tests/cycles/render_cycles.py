@@ -35,7 +35,7 @@ def material(called):
         shader.inputs["Roughness"].default_value = 0.0
     else:
         shader = tree.nodes.new("ShaderNodeBsdfGlossy")
-        shader.distribution = "GGX"
+        shader.distribution = "MULTI_GGX"
         shader.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
         shader.inputs["Roughness"].default_value = scenes.METAL[called]
     tree.links.new(shader.outputs[0], output.inputs["Surface"])
@@ -65,7 +65,7 @@ def of_lobes(called, lobes, data):
             shader = stretched(tree, *how)
         elif kind == "ggx":
             shader = tree.nodes.new("ShaderNodeBsdfGlossy")
-            shader.distribution = "GGX"
+            shader.distribution = "MULTI_GGX"
             shader.inputs["Roughness"].default_value = how[0]
         elif kind == "bent":
             shader = tree.nodes.new("ShaderNodeBsdfRefraction")
@@ -89,7 +89,7 @@ def stretched(tree, roughness, strength, turn):
     across = roughness * roughness
     along = across + (1.0 - across) * strength * strength
     shader = tree.nodes.new("ShaderNodeBsdfAnisotropic")
-    shader.distribution = "GGX"
+    shader.distribution = "MULTI_GGX"
     shader.inputs["Roughness"].default_value = (along * across) ** 0.25
     shader.inputs["Anisotropy"].default_value = (across / along) ** 0.5 - 1.0
     shader.inputs["Rotation"].default_value = turn / (2.0 * math.pi)

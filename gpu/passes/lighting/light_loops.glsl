@@ -75,6 +75,8 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
         }
         if ((WAYS & LIGHTS_FILL) != 0u) {
             p.lobe.lit *= max(size.z, 0.0);
+            p.lobe.again *= max(size.z, 0.0);
+            p.lobe.loss.along /= max(size.z, 1.0e-6);  // of a lobe that has its share already
             p.film.lit *= max(size.z, 0.0);
         }
     }
