@@ -117,6 +117,12 @@ float glow_highlight(float roughness)
     return IMAGE_BASED_LIGHT != 0u && PICTURE != 0u ? glow_share(roughness) : 1.0;
 }
 
+// Of a light that tells its share of highlights: LIGHT_GLOWS as a surface that glows.
+float highlight_share(float told, float roughness)
+{
+    return told < 0.0 ? glow_highlight(roughness) : told;
+}
+
 // Once for all lamps.
 ShapedLobes shaped_lobes(LitPoint p)
 {
@@ -179,7 +185,7 @@ vec3 shape_highlight(LitPoint p, vec3 in_lobe, vec3 in_second, float highlight)
 // those of a light in the direction of the irradiance, blurred by its size.
 vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
 {
-    const float specular = highlight < 0.0 ? glow_highlight(p.roughness) : highlight;
+    const float specular = highlight_share(highlight, p.roughness);
     const Frame3 surface = p.shaped.surface;
     const vec3 f = outline_irradiance(o, surface);
     const float size = length(f);
@@ -215,7 +221,7 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
         radiance += shape_highlight(p, outline_irradiance(o, p.shaped.lobe), in_second, specular);
     }
     if (FILM != 0u)
-        radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight < 0.0 ? glow_highlight(p.film.roughness) : highlight);
+        radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight_share(highlight, p.film.roughness));
     radiance *= visible;
     if (BLEEDS && p.translucency.strength > 0.0) {
         radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, to_it) *
@@ -242,11 +248,12 @@ vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3
     bright.layers.sheen = vec3(0.0);
     bright.roughness = sqrt(alpha);
     bright.lobe = make_lobe(p.lobe.normal, p.view, vec3(0.0), p.specular, alpha);
-    LitPoint matt = matt_part(p, size.z);
+    const float highlight = highlight_share(size.z, p.roughness);
+    LitPoint matt = matt_part(p, highlight);
     if (GATHERS != 0u && p.gathers == GATHERS_DIFFUSE) bright.gathers = GATHERS_REST;
     if (GATHERS != 0u && p.gathers == GATHERS_SPECULAR) matt.gathers = GATHERS_REST;
     return (shadowed_light(matt, nearest_on_axis(centre, half_axis), visible) +
-            model_light(bright, at.direction) * (at.energy * size.z * visible)) *
+            model_light(bright, at.direction) * (at.energy * highlight * visible)) *
            strength;
 }
 
