@@ -414,7 +414,7 @@ void later_layers(inout LitPoint p, int at, LayerShares share, float first_share
 vec3 grained_mirror(LitPoint p, vec3 bent, float view_m, ivec2 texel)
 {
     const float wide = grain_alpha(p.roughness * p.roughness, p.layers.anisotropy) * frame.grain_dither.x;
-    const float slope = ggx_slope(dither(texel, frame.sample_index), wide);
+    const float slope = ggx_slope(dither(picture_pixel(texel), frame.sample_index), wide);
     const vec3 drawn = grain_normal(p.normal, p.layers.tangent, p.view, slope);
     const float share = grain_share(frame.grain_dither, view_m);
     return share <= 0.0 ? bent : normalize(mix(bent, drawn, share));

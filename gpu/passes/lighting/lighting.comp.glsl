@@ -41,6 +41,7 @@
 #include "gpu/passes/lighting/lighting_places.glsl"
 
 #include "gpu/passes/lighting/lighting_words.glsl"
+#include "gpu/frame/picture_pixel.glsl"
 #include "gpu/frame/air.glsl"
 #include "gpu/frame/sky_quads.glsl"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"

@@ -96,7 +96,8 @@ LocalWeather local_weather(SurfaceInput at)
     if (PLACE == 0u) return weather_everywhere(at, true);
     // A turn of its own for every pixel, evenly spread over its samples: their mean blends between
     // patches.
-    const uint seed = hash_u3(uint(at.pixel.x), uint(at.pixel.y), 29u);
+    const ivec2 pixel = picture_pixel(at.pixel);
+    const uint seed = hash_u3(uint(pixel.x), uint(pixel.y), 29u);
     const vec3 first = vec3(hash_f(seed), hash_f(seed ^ 0x9e3779b9u), hash_f(seed ^ 0x7f4a7c15u));
     const vec3 turn =
         fract(first + float(frame.sample_index) * vec3(0.8191725, 0.6710436, 0.5497005));
