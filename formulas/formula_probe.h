@@ -67,7 +67,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 76;
+SHARED_CONST int kProbeKinds = 77;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -659,6 +659,15 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float wisps = mist_wisps(vec2(2.0f * a.x - 1.0f, 2.0f * a.y - 1.0f), vec2(a.z, a.w), b.x);
         const float depth = mist_depth(b.y, vec3(0.0f, 1.7f, 0.0f), vec3(8.0f * b.z, b.w, 3.0f), 0.5f * c.x);
         return vec4(1.0f + wisps, depth, 1.0f + mist_extinction_per_m(280.0f + 40.0f * c.y, 280.0f + 20.0f * c.z, c.w, a.x), 0.0f);
+    }
+    if (kind == 76) {
+        const vec3 v = probe_direction(a.x, 0.02f + 0.96f * a.y);
+        const vec3 n = normalize(v + probe_direction(a.z, a.w));
+        const float rough = 0.2f + 0.8f * b.w;
+        const Lobe lobe = with_all_light(make_lobe(n, v, splat3(0.1f), vec3(b.x, b.y, b.z), rough * rough), facet_roughness(rough, c.w - 0.5f),
+                                         lost_along_grain(rough, c.w - 0.5f));
+        const vec3 lit = shade_lobe(lobe, normalize(2.0f * n + probe_direction(c.x, c.y) - v));
+        return vec4(lit.x, lit.y, lit.z, lost_at(facet_loss(0.05f + 0.95f * c.z), c.w) + lost_in_all(c.z));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -8,6 +8,8 @@
 #include "formulas/weather/falls_here.h"
 #include "gpu/frame/falls.h"
 #include "gpu/frame/frame_words_io.h"
+#include "gpu/frame/picture_tile.h"
+#include "gpu/frame/window_io.h"
 #include "gpu/lighting/models_io.h"
 #include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
@@ -237,6 +239,17 @@ shared::FallConstants fall_constants(const DepthView& view, const glm::vec3& fro
     return c;
 }
 
+static_assert(kTileStep == WINDOW_STEP);
+
+// Where a window begins in its picture. Both cameras have one eye and way: their middles are apart by their shifts.
+glm::ivec2 corner_px(const Frame& whole, const Frame& frame)
+{
+    const glm::vec2 size(frame.settings.width, frame.settings.height);
+    const glm::vec2 picture(whole.settings.width, whole.settings.height);
+    const glm::vec2 up(1.0f, -1.0f);
+    return glm::ivec2(glm::round(0.5f * (picture - size) + 0.5f * up * (size * frame.camera.shift - picture * whole.camera.shift)));
+}
+
 void fill_views(shared::FrameConstants& c, const Frame& frame, const Sun& sun, const VisibleWeather& weather,
                 const FrameResources& r)
 {
@@ -251,7 +264,8 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const Sun& sun, c
     }
     c.cascade_scale.w = sun.shadow_strength;
     c.cascade_end_m = glm::vec4(
-        coarse ? glm::vec3(-1.0f) : cascade_ends_m(whole_of(frame, r).camera, r.scene->bounds()), 0.0f);
+        coarse ? glm::vec3(-1.0f) : cascade_ends_m(whole_of(frame, r).camera, r.scene->bounds()),
+        shared::window_code(corner_px(whole_of(frame, r), frame)));
     c.shelter_from_world = maps.shelter_view.map_from_world;
     if (!maps.sky_valid) c.flags &= ~FRAME_SHELTER;
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
@@ -367,12 +381,8 @@ std::size_t keep_window(std::vector<shared::FallingDrop>& drops, const Frame& wh
 {
     const std::size_t all = drops.size();
     if (&whole == &frame) return all;
-    // Both cameras have one eye and way: their middles are apart by their shifts.
     const glm::vec2 size(frame.settings.width, frame.settings.height);
-    const glm::vec2 picture(whole.settings.width, whole.settings.height);
-    const glm::vec2 up(1.0f, -1.0f);
-    const glm::vec2 corner = glm::round(
-        0.5f * (picture - size) + 0.5f * up * (size * frame.camera.shift - picture * whole.camera.shift));
+    const glm::vec2 corner(corner_px(whole, frame));
     std::erase_if(drops, [&](shared::FallingDrop& drop) {
         drop.from_px -= corner;
         drop.to_px -= corner;

@@ -6,6 +6,7 @@
 #define PETRICHOR_FORMULAS_LIGHT_BRDF_H
 
 #include "base/interop.h"
+#include "formulas/light/facet_loss.h"
 
 SHARED_BEGIN
 
@@ -52,6 +53,8 @@ struct Lobe {
     float nv;
     float view_term;  // of the visibility
     float lit;
+    vec3 again;      // what facets send on to each other and leaves as from a matt surface (FoundAgain); none by itself
+    FacetLoss loss;
 };
 
 SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
@@ -65,7 +68,31 @@ SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
     lobe.nv = clamp(abs(dot(n, v)), 1.0e-4f, 1.0f);
     lobe.view_term = sqrt(lobe.nv * lobe.nv * (1.0f - lobe.a2) + lobe.a2);
     lobe.lit = f0.x + f0.y + f0.z > 0.0f ? 1.0f : 0.0f;
+    lobe.again = splat3(0.0f);
+    lobe.loss.top0 = 0.0f;
+    lobe.loss.top1 = 0.0f;
+    lobe.loss.below0 = 1.0f;
+    lobe.loss.below1 = 0.0f;
+    lobe.loss.along = 0.0f;
     return lobe;
+}
+
+// The same with the light that its facets lose to each other (formulas/light/facet_loss.h).
+//   roughness  perceptual, of that loss: the lobe's own, or facet_roughness() of layers.h
+//   along      what of it goes along the lobe: lost_along_lobe(), or lost_along_grain() of layers.h
+SHARED_FN Lobe with_all_light(Lobe lobe, float roughness, float along)
+{
+    const FoundAgain found = found_again(lobe.f0, roughness, lobe.nv, along);
+    lobe.again = found.color * lobe.lit;
+    lobe.loss = found.loss;
+    return lobe;
+}
+
+// What a lobe of one facet mirrors, and what goes along it from facet to facet.
+//   lost  lost_at() of the cosine to the light
+SHARED_FN vec3 mirrored_along(Lobe lobe, float lh, float lost)
+{
+    return schlick_fresnel(lobe.f0, lh) + lobe.again * (lobe.loss.along * sqrt(lost));
 }
 
 // Reflected radiance per unit irradiance on a facing plane, times nl.
@@ -82,7 +109,8 @@ SHARED_FN vec3 shade_lobe(Lobe lobe, vec3 l)
     const float light_term = lobe.nv * sqrt(nl * nl * (1.0f - lobe.a2) + lobe.a2);
     const float specular = lobe.a2 * 0.5f * lobe.lit * s * s /
                            max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-30f);
-    return (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * specular) * nl;
+    const float lost = lost_at(lobe.loss, nl);
+    return (lobe.diffuse + lobe.again * lost + mirrored_along(lobe, lh, lost) * specular) * nl;
 }
 
 // The same for one light alone.

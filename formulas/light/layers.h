@@ -91,6 +91,31 @@ SHARED_FN float coat_fresnel(float cosine)
     return 0.04f + 0.96f * m2 * m2 * m;
 }
 
+// Alpha along the tangent, of KHR_materials_anisotropy; across it is the square of the roughness.
+SHARED_FN float alpha_along(float roughness, float anisotropy)
+{
+    return mix(roughness * roughness, 1.0f, anisotropy * anisotropy);
+}
+
+// The roughness of a round lobe that loses as much light between its facets: slopes of the same variance. In the mean over
+// turns it is within 0.05 of what is lost (FacetLoss.AlongAGrainIsThatOfAsSteepSlopes).
+SHARED_FN float facet_roughness(float roughness, float anisotropy)
+{
+    if (anisotropy <= 0.0f) return roughness;
+    const float across = roughness * roughness;
+    const float along = alpha_along(roughness, anisotropy);
+    return sqrt(sqrt(0.5f * (along * along + across * across)));
+}
+
+// What of it goes along the lobe: the more, the longer that is (FacetWalk.AlongAGrain..).
+SHARED_FN float lost_along_grain(float roughness, float anisotropy)
+{
+    const float round = lost_along_lobe(roughness);
+    if (anisotropy <= 0.0f) return round;
+    const float narrow = roughness * roughness / alpha_along(roughness, anisotropy);
+    return mix(1.0f, round, clamp(2.5f * (narrow - 0.15f), 0.0f, 1.0f));
+}
+
 // A base with layers over it, from the answer of the base alone: that of shade_lobe(), or of two lobes
 // (two_lobes.h). Arguments as of shade_layered_lobe().
 SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, float roughness, Layers layers)
@@ -100,10 +125,12 @@ SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, floa
     const float facing = dot(n, l);
     if (layers.anisotropy > 0.0f) {
         const float alpha = roughness * roughness;
-        const float along = mix(alpha, 1.0f, layers.anisotropy * layers.anisotropy);
+        const float along = alpha_along(roughness, layers.anisotropy);
         const float lh = clamp(dot(l, half_vector(v, l)), 0.0f, 1.0f);
         const float lobe_here = anisotropic_lobe(n, layers.tangent, v, l, along, alpha) * lobe.lit;
-        base = (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * lobe_here) * max(facing, 0.0f);
+        const float nl = max(facing, 0.0f);
+        const float lost = lost_at(lobe.loss, nl);
+        base = (lobe.diffuse + lobe.again * lost + mirrored_along(lobe, lh, lost) * lobe_here) * nl;
     }
     if (layers.sheen.x + layers.sheen.y + layers.sheen.z > 0.0f) {
         const float nl = max(facing, 0.0f);

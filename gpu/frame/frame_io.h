@@ -63,7 +63,7 @@ struct FrameConstants {
     vec3 cookie_down;
     int cookie_texel;      // its first; none when negative
     float cookie_texel_m;
-    vec4 cascade_end_m;    // view distance where cascade i ends
+    vec4 cascade_end_m;    // view distance where cascade i ends; w: where the window begins (window_io.h)
     vec4 cascade_scale;    // texel size of cascade i relative to the first; w: strength of the shadow
 
     vec3 moon_direction;  // towards it, unit

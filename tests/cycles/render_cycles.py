@@ -1,7 +1,10 @@
 """Renders a scene of scenes.py with Cycles, inside Blender:
 
-    blender -b --factory-startup -noaudio --python render_cycles.py -- NAME OUT.exr [SAMPLES [STREET.glb]]
+    blender -b --factory-startup -noaudio --python render_cycles.py -- NAME OUT.exr [SAMPLES [FILE]]
+
+FILE: the glTF file of the street or of the helmet.
 """
+import json
 import math
 import pathlib
 import sys
@@ -35,7 +38,7 @@ def material(called):
         shader.inputs["Roughness"].default_value = 0.0
     else:
         shader = tree.nodes.new("ShaderNodeBsdfGlossy")
-        shader.distribution = "GGX"
+        shader.distribution = "MULTI_GGX"
         shader.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
         shader.inputs["Roughness"].default_value = scenes.METAL[called]
     tree.links.new(shader.outputs[0], output.inputs["Surface"])
@@ -65,7 +68,7 @@ def of_lobes(called, lobes, data):
             shader = stretched(tree, *how)
         elif kind == "ggx":
             shader = tree.nodes.new("ShaderNodeBsdfGlossy")
-            shader.distribution = "GGX"
+            shader.distribution = "MULTI_GGX"
             shader.inputs["Roughness"].default_value = how[0]
         elif kind == "bent":
             shader = tree.nodes.new("ShaderNodeBsdfRefraction")
@@ -89,7 +92,7 @@ def stretched(tree, roughness, strength, turn):
     across = roughness * roughness
     along = across + (1.0 - across) * strength * strength
     shader = tree.nodes.new("ShaderNodeBsdfAnisotropic")
-    shader.distribution = "GGX"
+    shader.distribution = "MULTI_GGX"
     shader.inputs["Roughness"].default_value = (along * across) ** 0.25
     shader.inputs["Anisotropy"].default_value = (across / along) ** 0.5 - 1.0
     shader.inputs["Rotation"].default_value = turn / (2.0 * math.pi)
@@ -142,7 +145,7 @@ def build(told):
     scene.camera = eye
 
 
-def as_gltf_says(material, told):
+def as_gltf_says(material, told, facets):
     """glTF's own mix: Lambert under GGX, of which a share is mirrored and the rest scattered, and metal.
 
     Blender's importer makes one Principled shader, whose diffuse lobe is Burley's and has all of the base colour
@@ -167,6 +170,7 @@ def as_gltf_says(material, told):
     left.inputs["Scale"].default_value = 1.0 - mirrored
     matt = tree.nodes.new("ShaderNodeBsdfDiffuse")
     film = tree.nodes.new("ShaderNodeBsdfPrincipled")
+    metal.distribution = film.distribution = facets
     film.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     film.inputs["Specular"].default_value = mirrored / 0.08
     both = tree.nodes.new("ShaderNodeAddShader")
@@ -183,7 +187,7 @@ def as_gltf_says(material, told):
         tree.links.new(source, target)
 
 
-def load_street(path):
+def load(path, by):
     """By Blender's own importer, whose z is up; of its lights none is kept."""
     import numpy
     numpy.bool = bool  # which it asks for by a name that is gone
@@ -191,20 +195,22 @@ def load_street(path):
     for thing in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         bpy.data.objects.remove(thing)
     sun = bpy.data.lights.new("sun", "SUN")
-    sun.energy, sun.angle = scenes.STREET["lux"], 0.0
+    sun.energy, sun.angle = by["lux"], 0.0
     thing = bpy.data.objects.new("sun", sun)
     scene.collection.objects.link(thing)
-    x, y, z = scenes.STREET["towards"]
+    x, y, z = by["towards"]
     placed(thing, scenes.looking((x, -z, y), (0.0, 0.0, 0.0)))
-    for told in scenes.document(pathlib.Path(path).read_bytes())["materials"]:
-        as_gltf_says(bpy.data.materials[told["name"]], told)
+    data = pathlib.Path(path).read_bytes()
+    for told in (scenes.document(data) if path.endswith(".glb") else json.loads(data))["materials"]:
+        if told["name"] in bpy.data.materials:
+            as_gltf_says(bpy.data.materials[told["name"]], told, by["facets"])
     scene.camera = next(o for o in bpy.data.objects if o.type == "CAMERA" and o.name.startswith("main"))
-    scene.camera.data.sensor_fit, scene.camera.data.angle_y = "VERTICAL", 0.75
+    scene.camera.data.sensor_fit, scene.camera.data.angle_y = "VERTICAL", by["fov"]
 
 
-if name == "street":
-    sky, bounces = scenes.STREET["sky"], 8
-    load_street(rest[1])
+if name in scenes.LOADED:
+    sky, bounces = scenes.LOADED[name]["sky"], 8
+    load(rest[1], scenes.LOADED[name])
 else:
     told = scenes.SCENES[name]()
     sky, bounces = told["sky"], told["bounces"]

@@ -1,4 +1,4 @@
-"""Small scenes whose materials and lights mean the same to any renderer: Lambert, white metals of GGX, glTF's layers.
+"""Small scenes whose materials and lights mean the same to any renderer: Lambert, white metals of GGX (all bounces between its facets), glTF's layers.
 
 Each is told once and becomes a glTF file with a scenario for Petrichor (write()) and meshes for Blender
 (render_cycles.py). Metres, y up; a camera looks along its own -z. Light in lux, candela and cd/m2.
@@ -6,6 +6,7 @@ Each is told once and becomes a glTF file with a scenario for Petrichor (write()
 import json
 import math
 import pathlib
+import shutil
 import struct
 
 import layers
@@ -59,11 +60,13 @@ def lambert_sky():
     return courtyard(1.0, 0.0)
 
 
-STREET = {"lux": 3.0, "towards": unit((0.35, 0.62, 0.55)), "sky": 0.3}
+STREET = {"lux": 3.0, "towards": unit((0.35, 0.62, 0.55)), "sky": 0.3, "fov": 0.75, "facets": "GGX"}  # GGX: its reference has one bounce between facets
+HELMET = {"lux": 3.0, "towards": unit((0.6, 0.6, 0.7)), "sky": 0.4, "fov": 0.3, "facets": "MULTI_GGX", "eye": (0.6, 0.55, 1.15), "at": (0.03, 0.5, 0.03)}
+LOADED = {"street": STREET, "helmet": HELMET}  # of files, by Blender's own importer
 SCENES = {f.__name__: f for f in (lambert_sun, ggx_lamps, lambert_bounce, lambert_sky, layers.layers_sun, layers.layers_even)}
 # Light that one surface sends another is solved on patches; light of lamps and sun is exact.
 LIMITS = {"lambert_sun": (0.01, 0.03), "ggx_lamps": (0.01, 0.03), "lambert_bounce": (0.05, 0.06), "lambert_sky": (0.05, 0.06),
-          "layers_sun": (0.01, 0.03), "layers_even": (0.01, 0.045), "street": (None, 0.076)}
+          "layers_sun": (0.01, 0.033), "layers_even": (0.01, 0.045), "street": (None, 0.076), "helmet": (None, 0.042)}
 SIZE = (320, 180)
 
 
@@ -145,6 +148,14 @@ def document(data):
     return json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
 
 
+def add_sun(told, by):
+    """One directional light, in place of all that the file has."""
+    told.setdefault("extensions", {})["KHR_lights_punctual"] = {"lights": [{"type": "directional", "intensity": by["lux"], "color": [1.0, 1.0, 1.0]}]}
+    told["extensionsUsed"] = sorted({*told.get("extensionsUsed", []), "KHR_lights_punctual"})
+    told["nodes"].append({"matrix": matrix(looking(by["towards"], (0.0, 0.0, 0.0))), "extensions": {"KHR_lights_punctual": {"light": 0}}})
+    told["scenes"][0]["nodes"].append(len(told["nodes"]) - 1)
+
+
 def lit_street(data):
     """The demo's street, a glTF file, with one directional light and nothing that glows.
 
@@ -160,13 +171,10 @@ def lit_street(data):
     for primitive in [p for m in told["meshes"] for p in m["primitives"] if p.get("material") in leaves]:
         for attribute in ("NORMAL", "TANGENT"):
             primitive["attributes"].pop(attribute, None)
-    told["extensions"]["KHR_lights_punctual"]["lights"] = [{"type": "directional", "intensity": STREET["lux"], "color": [1.0, 1.0, 1.0]}]
-    nodes = told["nodes"]
-    for node in nodes:
+    for node in told["nodes"]:
         if "KHR_lights_punctual" in node.get("extensions", {}):
             del node["extensions"]
-    nodes.append({"matrix": matrix(looking(STREET["towards"], (0.0, 0.0, 0.0))), "extensions": {"KHR_lights_punctual": {"light": 0}}})
-    told["scenes"][0]["nodes"].append(len(nodes) - 1)
+    add_sun(told, STREET)
     text = json.dumps(told).encode()
     text += b" " * (-len(text) % 4)
     rest = data[20 + size:]
@@ -177,12 +185,35 @@ def write_street(glb_of_demo, folder, samples=64):
     """The same for the demo's street, all that the renderer has on."""
     folder = pathlib.Path(folder)
     (folder / "street.glb").write_bytes(lit_street(glb_of_demo))
+    return write_loaded("street", "street.glb", folder, samples)
+
+
+def write_helmet(model, folder, samples=64):
+    """Khronos' FlightHelmet without its panes (materials that blend), with a sun and a camera."""
+    folder = pathlib.Path(folder)
+    told = json.loads(pathlib.Path(model).read_text())
+    panes = [i for i, m in enumerate(told["materials"]) if m.get("alphaMode") == "BLEND"]
+    bare = [i for i, m in enumerate(told["meshes"]) if all(p.get("material") in panes for p in m["primitives"])]
+    for node in told["nodes"]:
+        if node.get("mesh") in bare:
+            del node["mesh"]
+    for of_file in told["images"] + told["buffers"]:
+        shutil.copyfile(pathlib.Path(model).parent / of_file["uri"], folder / of_file["uri"])
+    add_sun(told, HELMET)
+    told["cameras"] = [{"type": "perspective", "perspective": {"yfov": HELMET["fov"], "znear": 0.05, "aspectRatio": SIZE[0] / SIZE[1]}}]
+    told["nodes"].append({"name": "main", "matrix": matrix(looking(HELMET["eye"], HELMET["at"])), "camera": 0})
+    told["scenes"][0]["nodes"].append(len(told["nodes"]) - 1)
+    (folder / "helmet.gltf").write_text(json.dumps(told))
+    return write_loaded("helmet", "helmet.gltf", folder, samples)
+
+
+def write_loaded(name, file, folder, samples):
     (folder / "even.hdr").write_bytes(even_sky())
-    lines = ["[scene]", 'file = "street.glb"', "[sun]", 'source = "scene"', "[sky]", 'environment = "even.hdr"', f"environment_scale = {STREET['sky']}", "[fog]",
+    lines = ["[scene]", f'file = "{file}"', "[sun]", 'source = "scene"', "[sky]", 'environment = "even.hdr"', f"environment_scale = {LOADED[name]['sky']}", "[fog]",
              'mode = "off"', "[weather]", 'keys = [{ time_s = 0.0, temperature_c = 15.0, rainfall = 0.0 }]', "duration_s = 1.0", "[lights]", 'lamps = "off"',
              "[output]", f"width = {SIZE[0]}", f"height = {SIZE[1]}", f"samples = {samples}", "frames = 1", "film = false",
              '[materials."*"]', "diffuse_transmission_factor = 0.0", "occlusion_strength = 0.0"]
-    path = folder / "street.toml"
+    path = folder / f"{name}.toml"
     path.write_text("\n".join(lines) + "\n")
     return path
 

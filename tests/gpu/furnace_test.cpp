@@ -51,5 +51,37 @@ TEST_F(Furnace, NoModelOutshinesIt)
     EXPECT_GT(brightest, 0.95f);
 }
 
+// The same by lamps alone, alike from all sides: a white metal sends all of it on, however rough it is and wherever it is
+// seen from, in one lobe and in the layered model.
+TEST_F(Furnace, AWhiteMetalSendsTheLightOfLampsOn)
+{
+    constexpr int kLamps = 600;
+    std::vector<Light> around;
+    for (int i = 0; i < kLamps; ++i) {
+        const float up = (static_cast<float>(i) + 0.5f) / kLamps;
+        const float turn = 2.3999632f * static_cast<float>(i);
+        const float level = std::sqrt(1.0f - up * up);
+        Light lamp;
+        lamp.kind = LightKind::Directional;
+        lamp.direction = -glm::vec3(level * std::cos(turn), up, level * std::sin(turn));
+        lamp.intensity = 6.2831853f / kLamps;
+        around.push_back(lamp);
+    }
+    for (const std::string model : {"standard", "layered"}) {
+        for (const float roughness : {0.45f, 0.7f, 1.0f}) {
+            Material white = plain_material(glm::vec3(1.0f), roughness, 1.0f);
+            white.lighting_model = model;
+            renderer->load(scene_of({quad({-6, 0, 6}, {12, 0, 0}, {0, 0, -12})}, {white}), {});
+            for (const float up : {1.0f, 0.6f, 0.25f}) {
+                Frame frame = furnace_frame(up);
+                frame.settings.image_based_light = false;
+                frame.settings.exposure = 1.0f;
+                frame.extra_lights = around;
+                EXPECT_NEAR(pixel(renderer->render(frame), 8, 8).g, 1.0f, 0.025f) << model << " " << roughness << " " << up;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

@@ -14,6 +14,7 @@
 #include "gpu/frame/occlusion_blocks.glsl"
 
 layout(binding = AMBIENT_OCCLUSION_FRAME, scalar) uniform Frame { FrameConstants frame; };
+#include "gpu/frame/picture_pixel.glsl"
 layout(binding = AMBIENT_OCCLUSION_DEPTH) uniform samplerBuffer depth_rows;
 layout(binding = AMBIENT_OCCLUSION_NORMALS) uniform samplerBuffer normal_rows;
 #include "gpu/frame/geometry_normal.glsl"

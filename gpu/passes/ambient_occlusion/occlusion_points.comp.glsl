@@ -29,7 +29,7 @@ void main()
     const float step = pixel_depth_step(frame, depth);
     OcclusionPoint point;
     point.depth = depth;
-    point.open = open_at(texel, max(depth, 1.0e-9), block);
+    point.open = open_at(texel, max(depth, 1.0e-9), picture_pixel(corner) / OCCLUSION_BLOCK);
     point.slope = vec2(depth_change(texel, depth, ivec2(1, 0)), depth_change(texel, depth, ivec2(0, 1))) / step;
     point.alone = 0u;
     for (int i = 0; i < OCCLUSION_BLOCK * OCCLUSION_BLOCK; ++i) {

@@ -39,7 +39,7 @@ float lamp_visibility(float number, vec3 lamp_m, float near_m, vec3 position, ve
     const float along = max(on_face.z, near_m);
     const vec2 uv = on_face.xy * (0.5 * LAMP_MAP_COVER / on_face.z) + 0.5;
     const vec2 slope = lamp_plane_slope(normal, d, on_lamp_face(normal, face).xy) * (near_m * 2.0 / LAMP_MAP_COVER);
-    const float turn = 6.2831853 * dither(texel, frame.sample_index + 19u);
+    const float turn = 6.2831853 * dither(picture_pixel(texel), frame.sample_index + 19u);
     const vec2 axis = vec2(cos(turn), sin(turn)) * SHADOW_DISC_TEXELS;
     return disc_lit(lamp_shadow_map, uv, number * 6.0 + face, near_m / along, slope, axis);
 }

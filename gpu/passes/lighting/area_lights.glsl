@@ -81,13 +81,23 @@ float light_near_m(LightRow light)
     return in_lantern(light) ? LANTERN_HALF_M : LAMP_MAP_NEAR_M;
 }
 
-// The same surface without its highlight.
-LitPoint matt_part(LitPoint p)
+// What facets of a lobe send on to each other, so much of it, beside another lobe.
+Lobe with_again_of(Lobe lobe, Lobe from, float share)
+{
+    lobe.again = from.again * share;
+    lobe.loss = from.loss;
+    return lobe;
+}
+
+// The same surface without its highlight, but for what goes on between facets.
+//   highlight  share of it
+LitPoint matt_part(LitPoint p, float highlight)
 {
     LitPoint q = p;
     q.specular = vec3(0.0);
-    q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), vec3(0.0),
-                       p.roughness * p.roughness);
+    q.lobe = with_again_of(make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), vec3(0.0),
+                                     p.roughness * p.roughness), p.lobe, highlight);
+    q.second.lobe.again *= highlight;
     q.second.lobe.lit = 0.0;
     q.second.lobe.f0 = vec3(0.0);
     return q;
@@ -105,6 +115,12 @@ bool mirrors_as_ggx(uint model)
 float glow_highlight(float roughness)
 {
     return IMAGE_BASED_LIGHT != 0u && PICTURE != 0u ? glow_share(roughness) : 1.0;
+}
+
+// Of a light that tells its share of highlights: LIGHT_GLOWS as a surface that glows.
+float highlight_share(float told, float roughness)
+{
+    return told < 0.0 ? glow_highlight(roughness) : told;
 }
 
 // Once for all lamps.
@@ -144,6 +160,12 @@ vec3 film_over(LitPoint p, vec3 in_film, vec3 l, vec3 below, float highlight)
            vec3(p.shaped.film_mirrors * (cosine_share(in_film) * highlight * p.film.lit));
 }
 
+// What a lobe mirrors of all around, with what goes along it from facet to facet.
+vec3 mirrored_in_all(vec3 f0, Lobe lobe, vec2 sum)
+{
+    return mirrored_by(f0, sum) + lobe.again * (lobe.loss.along * sqrt(lost_at(lobe.loss, lobe.nv)) * (sum.x + sum.y));
+}
+
 // Highlight of GGX's lobes of a shape that glows or is a lamp.
 //   in_lobe    its irradiance where the lobe is a cosine
 //   in_second  the same of the second lobe; counts where there is one
@@ -151,9 +173,9 @@ vec3 shape_highlight(LitPoint p, vec3 in_lobe, vec3 in_second, float highlight)
 {
     const float nv = clamp(dot(p.normal, p.view), 0.0, 1.0);
     const float kept = 1.0 - p.layers.coat * coat_fresnel(nv);
-    vec3 mirrored = mirrored_by(p.specular, p.shaped.split_sum) * cosine_share(in_lobe);
+    vec3 mirrored = mirrored_in_all(p.specular, p.lobe, p.shaped.split_sum) * cosine_share(in_lobe);
     if (TWO_LOBES) {
-        const vec3 other = mirrored_by(p.specular, p.shaped.second_sum) * cosine_share(in_second);
+        const vec3 other = mirrored_in_all(p.specular, p.second.lobe, p.shaped.second_sum) * cosine_share(in_second);
         mirrored = mix(mirrored, other, p.second.share);
     }
     return mirrored * (highlight * kept);
@@ -163,7 +185,7 @@ vec3 shape_highlight(LitPoint p, vec3 in_lobe, vec3 in_second, float highlight)
 // those of a light in the direction of the irradiance, blurred by its size.
 vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
 {
-    const float specular = highlight < 0.0 ? glow_highlight(p.roughness) : highlight;
+    const float specular = highlight_share(highlight, p.roughness);
     const Frame3 surface = p.shaped.surface;
     const vec3 f = outline_irradiance(o, surface);
     const float size = length(f);
@@ -179,11 +201,11 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
     const float irradiance = kPi * seen / max(dot(p.normal, l), 1.0e-3);
     const bool ggx = mirrors_as_ggx(p.model) && p.layers.anisotropy <= 0.0;
     const float alpha = min(p.roughness * p.roughness + 0.5 * wide, 1.0);
-    LitPoint q = matt_part(p);
+    LitPoint q = matt_part(p, highlight < 0.0 ? 1.0 : highlight);
     if (!ggx) {
         q.roughness = sqrt(alpha);
         q.specular = p.specular * specular;
-        q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular, alpha);
+        q.lobe = with_again_of(make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular, alpha), q.lobe, 1.0);
     }
     if (p.layers.coat > 0.0) {
         const float coat = p.layers.coat_roughness * p.layers.coat_roughness;
@@ -199,7 +221,7 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
         radiance += shape_highlight(p, outline_irradiance(o, p.shaped.lobe), in_second, specular);
     }
     if (FILM != 0u)
-        radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight < 0.0 ? glow_highlight(p.film.roughness) : highlight);
+        radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight_share(highlight, p.film.roughness));
     radiance *= visible;
     if (BLEEDS && p.translucency.strength > 0.0) {
         radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, to_it) *
@@ -226,11 +248,12 @@ vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3
     bright.layers.sheen = vec3(0.0);
     bright.roughness = sqrt(alpha);
     bright.lobe = make_lobe(p.lobe.normal, p.view, vec3(0.0), p.specular, alpha);
-    LitPoint matt = matt_part(p);
+    const float highlight = highlight_share(size.z, p.roughness);
+    LitPoint matt = matt_part(p, highlight);
     if (GATHERS != 0u && p.gathers == GATHERS_DIFFUSE) bright.gathers = GATHERS_REST;
     if (GATHERS != 0u && p.gathers == GATHERS_SPECULAR) matt.gathers = GATHERS_REST;
     return (shadowed_light(matt, nearest_on_axis(centre, half_axis), visible) +
-            model_light(bright, at.direction) * (at.energy * size.z * visible)) *
+            model_light(bright, at.direction) * (at.energy * highlight * visible)) *
            strength;
 }
 
@@ -297,12 +320,12 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
     const float blurred = min(alpha + 0.5 * wide, 1.0);
     const bool ggx = mirrors_as_ggx(p.model) && p.layers.anisotropy <= 0.0;
     const float highlight = glow_highlight(p.roughness);
-    LitPoint q = matt_part(p);
+    LitPoint q = matt_part(p, 1.0);
     if (!ggx) {
         q.roughness = sqrt(blurred);
         q.specular = p.specular * highlight;
-        q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
-                           blurred);
+        q.lobe = with_again_of(make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
+                                         blurred), q.lobe, 1.0);
     }
     if (p.layers.coat > 0.0) {
         const float coat = p.layers.coat_roughness * p.layers.coat_roughness;
@@ -391,7 +414,7 @@ void later_layers(inout LitPoint p, int at, LayerShares share, float first_share
 vec3 grained_mirror(LitPoint p, vec3 bent, float view_m, ivec2 texel)
 {
     const float wide = grain_alpha(p.roughness * p.roughness, p.layers.anisotropy) * frame.grain_dither.x;
-    const float slope = ggx_slope(dither(texel, frame.sample_index), wide);
+    const float slope = ggx_slope(dither(picture_pixel(texel), frame.sample_index), wide);
     const vec3 drawn = grain_normal(p.normal, p.layers.tangent, p.view, slope);
     const float share = grain_share(frame.grain_dither, view_m);
     return share <= 0.0 ? bent : normalize(mix(bent, drawn, share));

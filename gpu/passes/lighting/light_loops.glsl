@@ -39,6 +39,15 @@ float masked(float visible, LampShadow shadow)
     return shadow.channel < 0.5 ? visible : mix(visible, seen, share);
 }
 
+// With so much of its highlight.
+Lobe shown_so_much(Lobe lobe, float share)
+{
+    lobe.lit *= share;
+    lobe.again *= share;
+    lobe.loss.along /= max(share, 1.0e-6);  // of a lobe that has its share already
+    return lobe;
+}
+
 // One light of the table; zero out of its range or behind the surface.
 vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed, const bool shaped)
 {
@@ -73,9 +82,11 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
             if ((WAYS & LIGHTS_LTC) != 0u) light.color.rgb *= (3.14159265 * size.x + 4.0 * size.y) * size.x;
             one_of_shape = false;
         }
-        if ((WAYS & LIGHTS_FILL) != 0u) {
-            p.lobe.lit *= max(size.z, 0.0);
-            p.film.lit *= max(size.z, 0.0);
+        if ((WAYS & (LIGHTS_FILL | LIGHTS_BY_MATERIAL)) != 0u) {
+            const float highlight = highlight_share(size.z, p.roughness);
+            p.lobe = shown_so_much(p.lobe, highlight);
+            if (TWO_LOBES) p.second.lobe = shown_so_much(p.second.lobe, highlight);
+            p.film.lit *= highlight_share(size.z, p.film.roughness);
         }
     }
     if (RECTANGLES != 0u && shaped) {

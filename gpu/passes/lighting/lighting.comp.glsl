@@ -43,6 +43,7 @@
 #include "gpu/passes/lighting/lighting_places.glsl"
 
 #include "gpu/passes/lighting/lighting_words.glsl"
+#include "gpu/frame/picture_pixel.glsl"
 #include "gpu/frame/air.glsl"
 #include "gpu/frame/sky_quads.glsl"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
@@ -90,7 +91,7 @@ const bool MAPPED = (BAKED & LIGHTING_BAKED_MAPS) != 0u;
 //   lit  what a white Lambert surface sends out
 vec3 vertex_lit(LitPoint p, vec3 lit)
 {
-    LitPoint q = matt_part(p);
+    LitPoint q = matt_part(p, 0.0);
     q.gathers = GATHERS_NOTHING_FIRST;
     q.film.lit = 0.0;
     return filmed_light(q, p.normal) * (kPi * lit);
@@ -260,11 +261,12 @@ void main()
         p.point_lamps = (ways & LOOK_POINT_LAMPS) != 0u;
         p.unshadowed = (ways & LOOK_UNSHADOWED) != 0u;
         p.film = film;
-        p.second = LobeBeside(Lobe(n, v, vec3(0.0), vec3(0.0), 1.0, 1.0, 1.0, 0.0), 1.0, 0.0);
+        p.second = LobeBeside(make_lobe(n, v, vec3(0.0), vec3(0.0), 1.0), 1.0, 0.0);
         if (TWO_LOBES && beside.share > 0.0) {
             p.second.roughness = clamp(beside.roughness, 0.045, 1.0);
             p.second.share = beside.share;
-            p.second.lobe = make_lobe(beside.normal, v, vec3(0.0), m.specular, p.second.roughness * p.second.roughness);
+            p.second.lobe = with_all_light(make_lobe(beside.normal, v, vec3(0.0), m.specular, p.second.roughness * p.second.roughness),
+                                           p.second.roughness, lost_along_lobe(p.second.roughness));
         }
         vec3 mirror_normal = first_normal;
         if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {
@@ -315,8 +317,9 @@ void main()
                 }
             }
         }
-        p.lobe = make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
-                           p.roughness * p.roughness);
+        p.lobe = with_all_light(make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
+                                          p.roughness * p.roughness), facet_roughness(p.roughness, p.layers.anisotropy),
+                                lost_along_grain(p.roughness, p.layers.anisotropy));
 
         p.shaped = shaped_lobes(p);
         if ((SUN != 0u && SHADOWS != 0u) || LAMP_SHADOWS != 0u)

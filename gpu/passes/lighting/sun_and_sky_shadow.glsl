@@ -23,7 +23,7 @@ float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
     // The maps differ in their width alone.
     const mat3 gradients = transpose(mat3(frame_arrays.shadow_from_world[2]));
     const vec2 slope = shadow_plane_slope(normal, gradients[0], gradients[1], gradients[2]) * (scale / frame.cascade_scale.z);
-    const float turn = 6.2831853 * dither(texel, frame.sample_index);
+    const float turn = 6.2831853 * dither(picture_pixel(texel), frame.sample_index);
     const vec2 axis = vec2(cos(turn), sin(turn)) * SHADOW_DISC_TEXELS;
     return disc_lit(shadow_map, map.xy, float(cascade), map.z, slope, axis);
 }
@@ -65,6 +65,7 @@ vec3 sun_cookie(vec3 position, float view_m)
 // quarter of the sky's directions, so that four samples ask all of them.
 float sky_visibility(vec3 position, vec3 normal, ivec2 texel)
 {
+    texel = picture_pixel(texel);
     const int start = int((hash_u3(uint(texel.x), uint(texel.y), 9u) + frame.sample_index) & 3u);
     const float turn = 6.2831853 * dither(texel.yx, frame.sample_index + 5u);
     const vec2 blur = vec2(cos(turn), sin(turn)) * (0.8 / float(textureSize(sky_visibility_map, 0).x));

@@ -247,7 +247,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         table.rectangles = table.rectangles || shape == Shape::Rectangle;
         if (shape == Shape::Ltc) ways |= LIGHTS_LTC;
         if (shape == Shape::Nearest) ways |= LIGHTS_NEAREST;
-        if (light->specular != 1.0f && light->kind != LightKind::Directional)
+        if ((light->specular != 1.0f || (light->glows && shape == Shape::None)) && light->kind != LightKind::Directional)
             ways |= LIGHTS_FILL;
         if (spot) ways |= LIGHTS_CONE;
         if (light->mask_channel > 0) ways |= LIGHTS_MASKED;

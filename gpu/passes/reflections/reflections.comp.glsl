@@ -19,6 +19,7 @@
 layout(local_size_x = REFLECTIONS_TILE, local_size_y = REFLECTIONS_TILE) in;
 #define FRAME_PLACE binding = REFLECTIONS_FRAME
 #include "gpu/frame/frame_words.glsl"
+#include "gpu/frame/picture_pixel.glsl"
 layout(binding = REFLECTIONS_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = REFLECTIONS_RADIANCE) uniform sampler2D radiance_map;
 layout(binding = REFLECTIONS_MIRROR_WEIGHT) uniform sampler2D mirror_weight;
@@ -281,8 +282,9 @@ void main()
         // A facet of the lobe a sample: at a grazing angle they make a streak. By the plastic number, since two
         // numbers that advance alike would lie on a line; the tail of GGX is left out, few samples find it.
         const float n_th = float(frame.sample_index);
-        const float turn = 6.2831853 * fract(dither(texel, 11u) + 0.7548777 * n_th);
-        const float u = 0.8 * fract(dither(texel.yx, 3u) + 0.5698403 * n_th);
+        const ivec2 seed = picture_pixel(texel);
+        const float turn = 6.2831853 * fract(dither(seed, 11u) + 0.7548777 * n_th);
+        const float u = 0.8 * fract(dither(seed.yx, 3u) + 0.5698403 * n_th);
         // Smooth ones send one ray, whose end is blurred: pixels that draw their facets are grain at few samples.
         const float drawn = smoothstep(0.1, 0.18, roughness);
         const float alpha = roughness * roughness;

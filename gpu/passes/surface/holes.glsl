@@ -4,6 +4,7 @@
 
 #include "formulas/noise/noise.h"
 #include "gpu/passes/surface/textures.glsl"
+#include "gpu/frame/picture_pixel.glsl"
 #include "gpu/upload/parallax_ends.h"
 
 // Not where water shifts the lookup to: a hole stays where it is.
@@ -32,7 +33,8 @@ float alpha_at(SurfaceInput at)
 // lies behind two panes would be seen more often, or less, than each of them lets it.
 float chance(SurfaceInput at)
 {
-    const uint own = hash_u3(uint(at.pixel.x), uint(at.pixel.y), at.instance_id);
+    const ivec2 pixel = picture_pixel(at.pixel);
+    const uint own = hash_u3(uint(pixel.x), uint(pixel.y), at.instance_id);
     return fract(hash_f(own) + 0.61803399 * float(frame.sample_index ^ (own & 63u)));
 }
 
@@ -49,7 +51,7 @@ bool hole_in(SurfaceInput at, float alpha)
 // A level of detail shows at its share of the pixels; another level has the others.
 bool faded(uint fade, ivec2 pixel)
 {
-    const float d = dither(pixel, frame.sample_index) * 65535.0;
+    const float d = dither(picture_pixel(pixel), frame.sample_index) * 65535.0;
     return d < float(fade & 65535u) || d >= float(fade >> 16);
 }
 

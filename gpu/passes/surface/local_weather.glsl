@@ -67,7 +67,7 @@ float pond_m(SurfaceInput at)
 LocalWeather local_weather(SurfaceInput at)
 {
     if (PLACE == 0u) return weather_everywhere(at, exposure_to_sky(at, true));
-    PlaceFound near = place_found(frame.place.grid, at.position, at.normal, place_turn(at.pixel, frame.sample_index), at.material_id);
+    PlaceFound near = place_found(frame.place.grid, at.position, at.normal, place_turn(picture_pixel(at.pixel), frame.sample_index), at.material_id);
     const bool beyond = near.number == kNoPatch;
     const Exposure open = exposure_to_sky(at, beyond);
     const float pond = pond_m(at);

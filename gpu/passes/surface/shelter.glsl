@@ -7,6 +7,7 @@
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/wander.h"
 #include "gpu/passes/surface/textures.glsl"
+#include "gpu/frame/picture_pixel.glsl"
 
 struct Exposure {
     float rain;  // share of that on open flat ground
@@ -17,7 +18,7 @@ struct Exposure {
 // Along the surface, so that it does not shelter itself.
 vec3 stray(SurfaceInput at)
 {
-    const vec2 way = (0.8 * wander(at.position.xz) + 0.7 * on_circle(dither(at.pixel, frame.sample_index + 3u))) * frame.shelter_spread_m;
+    const vec2 way = (0.8 * wander(at.position.xz) + 0.7 * on_circle(dither(picture_pixel(at.pixel), frame.sample_index + 3u))) * frame.shelter_spread_m;
     const vec3 flat_way = vec3(way.x, 0.0, way.y);
     return flat_way - at.normal * dot(at.normal, flat_way);
 }

@@ -1,0 +1,149 @@
+// Light from facet to facet beside a walk over them: where it goes, not only how much of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "formulas/light/layers.h"
+
+namespace petrichor::shared {
+namespace {
+
+using glm::dvec3;
+
+constexpr double kTurn = 6.283185307179586;
+constexpr int kRings = 6, kTurns = 6;
+using Sent = std::array<double, kRings * kTurns>;  // shares by cosine and by turn from the plane of the eye
+
+std::size_t bin(const dvec3& w)
+{
+    const double turn = std::abs(std::atan2(w.y, w.x)) / (0.5 * kTurn);
+    return static_cast<std::size_t>(std::min(static_cast<int>(w.z * kRings), kRings - 1) * kTurns +
+                                    std::min(static_cast<int>(turn * kTurns), kTurns - 1));
+}
+
+// Smith's facets over heights that are alike between -1 and 1 (Heitz et al. 2016, Multiple-Scattering Microfacet BSDFs
+// with the Smith Model); what is mirrored loses nothing.
+class Walk {
+public:
+    Walk(double along, double across) : along_(along), across_(across) {}
+
+    // The way that light leaves by.
+    dvec3 operator()(const dvec3& eye)
+    {
+        dvec3 w = -eye;
+        double below = 1.0;  // share of the heights
+        for (int bounce = 0; bounce < 40; ++bounce) {
+            const double shade = shadow(w), unit = number();
+            if (w.z > 0.9999 || (w.z > 0.0 && unit > 1.0 - std::pow(below, shade))) return w;
+            below = w.z < -0.9999 ? unit * below : below / std::pow(std::max(1.0 - unit, 1e-12), 1.0 / shade);
+            below = std::clamp(below, 1e-9, 1.0);
+            const dvec3 facet = seen_facet(-w);
+            w -= 2.0 * glm::dot(w, facet) * facet;
+        }
+        return {0.0, 0.0, -1.0};
+    }
+
+private:
+    double number() { return static_cast<double>(numbers_() >> 8) / 16777216.0; }
+
+    double shadow(const dvec3& w) const
+    {
+        const double slope = (along_ * along_ * w.x * w.x + across_ * across_ * w.y * w.y) / std::max(w.z * w.z, 1e-12);
+        return 0.5 * (std::copysign(std::sqrt(1.0 + slope), w.z) - 1.0);
+    }
+
+    // Dupuy and Benyoub 2023: a cap of the sphere, for eyes below the surface too.
+    dvec3 seen_facet(const dvec3& v)
+    {
+        const dvec3 s = glm::normalize(dvec3(along_ * v.x, across_ * v.y, v.z));
+        const double turn = kTurn * number();
+        const double up = (1.0 - number()) * (1.0 + s.z) - s.z;
+        const double level = std::sqrt(std::clamp(1.0 - up * up, 0.0, 1.0));
+        const dvec3 h = dvec3(level * std::cos(turn), level * std::sin(turn), up) + s;
+        return glm::normalize(dvec3(along_ * h.x, across_ * h.y, std::max(h.z, 1e-9)));
+    }
+
+    double along_, across_;
+    std::mt19937 numbers_{7};
+};
+
+Sent by_walk(double along, double across, const dvec3& eye, int walks)
+{
+    Walk walk(along, across);
+    Sent sent{};
+    for (int i = 0; i < walks; ++i) {
+        const dvec3 w = walk(eye);
+        if (w.z > 0.0) sent[bin(w)] += 1.0 / walks;
+    }
+    return sent;
+}
+
+template <typename Answer>
+Sent by_formula(Answer&& answer)
+{
+    const int rows = 240, columns = 288;
+    Sent sent{};
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            const double up = (i + 0.5) / rows, level = std::sqrt(1.0 - up * up), turn = kTurn * (j + 0.5) / columns;
+            const dvec3 l(level * std::cos(turn), level * std::sin(turn), up);
+            sent[bin(l)] += static_cast<double>(answer(glm::vec3(l)).g) * kTurn / (rows * columns);
+        }
+    }
+    return sent;
+}
+
+// The middle of the relative errors of what is worth a look.
+double error(const Sent& seen, const Sent& truth)
+{
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        if (truth[i] > 5e-4) errors.push_back(std::abs(seen[i] - truth[i]) / truth[i]);
+    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2), errors.end());
+    return errors[errors.size() / 2];
+}
+
+const glm::vec3 kUp(0, 0, 1), kWhite(1.0f);
+
+TEST(FacetWalk, LightGoesWhereAWalkFromFacetToFacetSendsIt)
+{
+    for (const float roughness : {0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f}) {
+        for (const double up : {0.5, 0.9}) {
+            const dvec3 eye(std::sqrt(1.0 - up * up), 0.0, up);
+            const float alpha = roughness * roughness;
+            const Sent walked = by_walk(static_cast<double>(alpha), static_cast<double>(alpha), eye, 400000);
+            const Lobe alone = make_lobe(kUp, glm::vec3(eye), glm::vec3(0.0f), kWhite, alpha);
+            const Lobe all = with_all_light(alone, roughness, lost_along_lobe(roughness));
+            EXPECT_LT(error(by_formula([&](const glm::vec3& l) { return shade_lobe(all, l); }), walked), 0.08) << roughness << " " << up;
+            EXPECT_GT(error(by_formula([&](const glm::vec3& l) { return shade_lobe(alone, l); }), walked), 0.12) << roughness << " " << up;
+        }
+    }
+}
+
+TEST(FacetWalk, AlongAGrainItGoesMoreAlongTheLobe)
+{
+    for (const float anisotropy : {0.5f, 0.6f, 0.7f}) {
+        const float roughness = 0.4f, across = roughness * roughness, along = alpha_along(roughness, anisotropy);
+        const dvec3 eye = glm::normalize(dvec3(0.5, 0.0, 0.8));
+        const Sent walked = by_walk(static_cast<double>(along), static_cast<double>(across), eye, 400000);
+        Layers layers{};
+        layers.anisotropy = anisotropy;
+        layers.tangent = glm::vec3(1, 0, 0);
+        const Lobe alone = make_lobe(kUp, glm::vec3(eye), glm::vec3(0.0f), kWhite, across);
+        const auto off = [&](const Lobe& lobe) {
+            return error(by_formula([&](const glm::vec3& l) { return shade_layered_lobe(lobe, l, glm::vec3(0.0f), roughness, layers); }), walked);
+        };
+        const double all = off(with_all_light(alone, facet_roughness(roughness, anisotropy), lost_along_grain(roughness, anisotropy)));
+        const double as_round = off(with_all_light(alone, facet_roughness(roughness, anisotropy), lost_along_lobe(roughness)));
+        EXPECT_LT(all, 0.12) << anisotropy;
+        EXPECT_LT(all, as_round) << anisotropy;
+        EXPECT_GT(off(alone), 0.25) << anisotropy;
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::shared
