@@ -504,6 +504,21 @@ TEST(Report, WhatTheFileObservedIsDrawn)
     EXPECT_EQ(t.scores.size(), 2u);
 }
 
+// Light that comes back from a meadow says nothing about snow; without a depth its share tells which.
+TEST(Report, LightFromBareGroundIsNoSnowsAlbedo)
+{
+    const auto albedo_scores = [](const char* up) {
+        const SimulationTable t = simulated(
+            std::string("time,air_temp_c,precip_mm,sw_down_w_m2,sw_up_w_m2\n2024-01-01T10:00,-5,2,400,") +
+                up + "\n2024-01-01T11:00,-5,2,420," + up + "\n2024-01-01T12:00,-5,0,430," + up + "\n",
+            city());
+        return std::count_if(t.scores.begin(), t.scores.end(),
+                             [](const auto& s) { return s.column == "snow_albedo"; });
+    };
+    EXPECT_EQ(albedo_scores("90"), 0);
+    EXPECT_EQ(albedo_scores("310"), 1);
+}
+
 TEST(Report, RunwaysOfMetarAreCompared)
 {
     // A dry runway, then heavy snow that stays: dry, wet and white count as three classes.
