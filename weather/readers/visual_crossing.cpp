@@ -208,7 +208,12 @@ void read_json(std::string_view text, RowCollector& rows, const ReadOptions& opt
 
 bool recognise_csv(const FileHead& head)
 {
-    return head.has_columns({"datetime", "feelslike", "sealevelpressure", "cloudcover"});
+    // People choose columns too: one that nobody else names so is enough.
+    if (!head.has_columns({"datetime", "temp"})) return false;
+    for (const char* own : {"feelslike", "sealevelpressure", "preciptype", "precipprob",
+                            "solarradiation", "solarenergy", "severerisk", "tempmax"})
+        if (head.has_columns({own})) return true;
+    return false;
 }
 bool recognise_json(const FileHead& head)
 {
