@@ -94,6 +94,7 @@ TEST(VisualCrossing, JsonHasItsTimesAndIsMetric)
     EXPECT_NEAR(at(table, Field::Precip, one) * 3600.0, 0.4, 1e-9);
     EXPECT_NEAR(at(table, Field::SnowDepth, one), 0.624, 1e-9);
     EXPECT_EQ(at(table, Field::SnowShare, one), 1.0);
+    EXPECT_NEAR(at(table, Field::Pressure, one), 101120.0, 1e-6) << "of the sea: no elevation is known";
     EXPECT_THAT(notes(report), HasSubstr("group uk"));
 }
 

@@ -198,6 +198,8 @@ void read_json(std::string_view text, RowCollector& rows, const ReadOptions& opt
             h.time_us = static_cast<std::int64_t>(epoch) * 1000000;
             h.line = item.line;
             for (const Name& n : kNames) h.*n.value = number_of(item.find(n.name));
+            // The CSV's sealevelpressure.
+            if (std::isnan(h.sea_level)) h.sea_level = number_of(item.find("pressure"));
             if (const Json* kind = item.find("preciptype"))
                 for (const Json& word : kind->items) add_kind(h, word.text);
         }
