@@ -72,7 +72,7 @@ std::vector<DrawnPoint> thinned(const std::vector<DrawnPoint>& piece, std::size_
 // The pieces of a curve: between them there is nothing to show.
 std::vector<std::vector<DrawnPoint>> curve_pieces(const SimulationTable& table,
                                                   const TimeAxis& time,
-                                                  const std::vector<double>& y)
+                                                  const std::vector<double>& y, bool steps)
 {
     std::vector<std::vector<DrawnPoint>> pieces;
     const std::size_t bucket =
@@ -83,10 +83,12 @@ std::vector<std::vector<DrawnPoint>> curve_pieces(const SimulationTable& table,
         piece.clear();
     };
     for (std::size_t r = 0; r < y.size(); ++r) {
-        if (std::isnan(y[r]))
+        if (std::isnan(y[r])) {
             close();
-        else
-            piece.push_back({time.x(table.rows[r][0]), y[r]});
+            continue;
+        }
+        if (steps && bucket == 1 && !piece.empty()) piece.push_back({piece.back().x, y[r]});
+        piece.push_back({time.x(table.rows[r][0]), y[r]});
     }
     close();
     return pieces;
@@ -182,7 +184,7 @@ void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries
     const auto pieces = [&](const std::string& name) {
         std::vector<double> values = series_values(table, series, name);
         for (double& v : values) v = std::isnan(v) ? v : y(v);
-        return curve_pieces(table, time, values);
+        return curve_pieces(table, time, values, series.steps);
     };
     if (!series.band_low.empty()) {
         const auto lower = pieces(series.band_low), upper = pieces(series.band_high);

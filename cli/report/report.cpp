@@ -45,6 +45,7 @@ std::string data_json(const SimulationTable& table)
                                {"color", line.color},
                                {"filled", line.filled},
                                {"values", numbers(line.column)}};
+            if (line.steps) entry["steps"] = true;
             if (!line.band_low.empty()) {
                 entry["low"] = numbers(line.band_low);
                 entry["high"] = numbers(line.band_high);
@@ -151,7 +152,7 @@ function nowText(t){if(S!==undefined){const d=dateOf(t);return d.getUTCFullYear(
  if(t1-t0<600)return t.toFixed(2)+" s";const d=Math.floor(t/86400),h=Math.floor(t/3600)%24,m=Math.floor(t/60)%60,s=Math.floor(t%60),z=v=>String(v).padStart(2,"0");
  return(d?d+" d ":"")+z(h)+":"+z(m)+":"+z(s)}
 function rowBefore(t){let a=0,b=N-1;while(a<b){const m=(a+b+1)>>1;T[m]<=t?a=m:b=m-1}return a}
-function valueAt(v,t){const i=rowBefore(t);if(i===N-1||t<=T[i]||v[i]===null||v[i+1]===null)return v[i];const u=(t-T[i])/(T[i+1]-T[i]);return v[i]+(v[i+1]-v[i])*u}
+function valueAt(s,t){const v=s.values,i=rowBefore(t);if(i===N-1||t<=T[i]||v[i]===null||v[i+1]===null)return v[i];if(s.steps)return v[i+1];const u=(t-T[i])/(T[i+1]-T[i]);return v[i]+(v[i+1]-v[i])*u}
 const panels=D.panels.map((p,index)=>{const box=document.createElement("div");box.className="panel";
  const h=document.createElement("h2");h.textContent=p.title;box.append(h);
  const legend=document.createElement("div");legend.className="legend";box.append(legend);
@@ -190,7 +191,7 @@ function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),m
    for(let a=0;a<d.length;){let b=a+1;while(b<d.length&&!d[b].gap)b++;c.beginPath();for(let k=a;k<b;k++)c.lineTo(x(d[k].t),y(d[k].hi));for(let k=b-1;k>=a;k--)c.lineTo(x(d[k].t),y(d[k].lo));c.closePath();c.globalAlpha=.3;c.fillStyle=s.color;c.fill();c.globalAlpha=1;
     c.beginPath();for(let k=a;k<b;k++)c.lineTo(x(d[k].t),y(d[k].sum/d[k].n));c.strokeStyle=s.color;c.lineWidth=1.3;c.lineJoin="round";c.stroke();a=b}continue}
    if(s.low){c.beginPath();for(let i=i0;i<=i1;i++)c.lineTo(x(T[i]),y(s.high[i]));for(let i=i1;i>=i0;i--)c.lineTo(x(T[i]),y(s.low[i]));c.closePath();c.globalAlpha=.25;c.fillStyle=s.color;c.fill();c.globalAlpha=1}
-   c.beginPath();let pen=false;for(let i=i0;i<=i1;i++){const v=s.values[i];if(v===null){pen=false;continue}const X=x(T[i]),Y=y(v);pen?c.lineTo(X,Y):c.moveTo(X,Y);pen=true}
+   c.beginPath();let pen=false;for(let i=i0;i<=i1;i++){const v=s.values[i];if(v===null){pen=false;continue}const X=x(T[i]),Y=y(v);if(s.steps&&pen)c.lineTo(x(T[i-1]),Y);pen?c.lineTo(X,Y):c.moveTo(X,Y);pen=true}
    c.strokeStyle=s.color;c.lineWidth=crowd;c.lineJoin="round";c.stroke();
    if(s.filled&&!s.values.includes(null)){c.lineTo(x(T[i1]),y(p.low));c.lineTo(x(T[i0]),y(p.low));c.closePath();c.globalAlpha=.2;c.fillStyle=s.color;c.fill();c.globalAlpha=1}}
   for(const d of p.dots){c.fillStyle=dot;for(let i=0;i<d.times.length;i++)if(d.times[i]>=from&&d.times[i]<=to){c.beginPath();c.arc(x(d.times[i]),y(d.values[i]),d.times.length>150&&to-from>.5*(t1-t0)?1.6:2.6,0,7);c.fill()}}
@@ -199,8 +200,8 @@ function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),m
   D.events.forEach((e,i)=>{if(e.t<from||e.t>to)return;const X=x(e.t);c.strokeStyle=mark;c.lineWidth=1;c.setLineDash([3,4]);c.beginPath();c.moveTo(X,0);c.lineTo(X,top+h+4);c.stroke();c.setLineDash([]);
    if(last&&X-lastX>14){lastX=X;c.fillText(String(i+1),X,top+h+6)}});
   if(cursor!==null&&cursor>=from&&cursor<=to){c.strokeStyle=ink;c.lineWidth=1;c.beginPath();c.moveTo(x(cursor),0);c.lineTo(x(cursor),top+h);c.stroke();
-   for(const s of p.series){if(valueAt(s.values,cursor)===null)continue;c.fillStyle=s.color;c.beginPath();c.arc(x(cursor),y(valueAt(s.values,cursor)),3.5,0,7);c.fill()}}
-  p.series.forEach((s,i)=>{const v=cursor===null?null:valueAt(s.values,cursor);reads[i].textContent=cursor===null?"":v===null?"\u2013":v.toFixed(p.high-p.low>5?1:3)})}
+   for(const s of p.series){if(valueAt(s,cursor)===null)continue;c.fillStyle=s.color;c.beginPath();c.arc(x(cursor),y(valueAt(s,cursor)),3.5,0,7);c.fill()}}
+  p.series.forEach((s,i)=>{const v=cursor===null?null:valueAt(s,cursor);reads[i].textContent=cursor===null?"":v===null?"\u2013":v.toFixed(p.high-p.low>5?1:3)})}
  $("now").textContent=cursor===null?"point to read values"+(D.clock?"; times are "+D.clock:""):nowText(cursor);drawn=true}
 let asked=false;function redraw(){if(asked)return;asked=true;requestAnimationFrame(()=>{asked=false;draw()})}
 function view(a,b){const least=(t1-t0)/2000,span=Math.min(t1-t0,Math.max(least,b-a));let f=Math.max(t0,Math.min(a,t1-span));from=f;to=f+span;redraw()}

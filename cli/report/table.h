@@ -21,6 +21,7 @@ struct PlotSeries {
     /// nothing. Empty: no gaps.
     std::string only_where{};
     double only_above = 0.0;
+    bool steps = false;  ///< means of the time up to each row: flat between rows, no slope
 };
 
 /// Dots of a plot: what was observed.

@@ -6,10 +6,12 @@
 #include <cstdio>
 #include <functional>
 #include <iterator>
+#include <span>
 
 #include "base/error.h"
 #include "cli/report/drawing.h"
 #include "cli/report/table.h"
+#include "cli/simulate/depth_lines.h"
 #include "texproc/codecs/files/io.h"
 #include "weather/models/physical/mapping.h"
 #include "weather/readers/text.h"
@@ -205,9 +207,30 @@ void add_legend(Drawing& strip, const Terrain& terrain)
                   false});
 }
 
+// Lines of deeper snow, in their colours.
+void add_line_legend(Drawing& strip, std::span<const double> levels_m)
+{
+    constexpr const char* kInk = "#1b2430";
+    if (levels_m.empty()) return;
+    strip.height += 22.0;
+    double x = 10.0;
+    const double y = strip.height - 8.0;
+    for (std::size_t i = 0; i < levels_m.size(); ++i) {
+        char words[24];
+        std::snprintf(words, sizeof words, "%g m", levels_m[i]);
+        strip.shapes.push_back(DrawnLine{{{x, y - 4.0}, {x + 18.0, y - 4.0}},
+                                         hex_of(depth_line_color(i, levels_m.size())),
+                                         2.0});
+        strip.shapes.push_back(DrawnText{{x + 23.0, y}, words, kInk, 11.0, Anchor::Start, false});
+        x += 36.0 + text_width(words, 11.0) * 1.1;
+    }
+    strip.shapes.push_back(
+        DrawnText{{x, y}, "lines of snow depth", kInk, 11.0, Anchor::Start, false});
+}
+
 // What the map shows, in two lines below it, with a bar of a round length at the right.
 Drawing caption(const Terrain& terrain, const GridMap& map, const PhysicalRun& model,
-                std::size_t width, std::size_t zoom)
+                std::size_t width, std::size_t zoom, std::span<const double> levels_m)
 {
     constexpr const char* kInk = "#1b2430";
     double low_m = 1e9, high_m = -1e9, cover = 0.0, depth_m = 0.0;
@@ -244,6 +267,7 @@ Drawing caption(const Terrain& terrain, const GridMap& map, const PhysicalRun& m
     strip.shapes.push_back(
         DrawnText{{right, 33}, length_text(bar_m), kInk, 12.0, Anchor::End, false});
     add_legend(strip, terrain);
+    add_line_legend(strip, levels_m);
     return strip;
 }
 
@@ -252,10 +276,12 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
 {
     const std::size_t zoom = std::max<std::size_t>(1, (512 + terrain.width - 1) / terrain.width);
     std::vector<Rgb> small(terrain.cells(), {0.93, 0.94, 0.95});
+    std::vector<double> depth_m(terrain.cells(), 0.0);
     for (std::size_t y = 0; y < terrain.height; ++y) {
         for (std::size_t x = 0; x < terrain.width; ++x) {
             const std::size_t i = y * terrain.width + x;
             if (!terrain.inside[i]) continue;
+            depth_m[i] = weather::diagnostics(map.states[i]).snow_depth_m;
             const double light =
                 0.30 + 0.72 * hillshade(terrain, static_cast<double>(x), static_cast<double>(y));
             for (std::size_t k = 0; k < 3; ++k)
@@ -266,6 +292,7 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
     // Bilinear between the middles of cells.
     const std::size_t width = terrain.width * zoom, height = terrain.height * zoom;
     std::vector<std::uint8_t> rgb(width * height * 3);
+    std::vector<double> depths_m(width * height);
     const auto place = [&](std::size_t pixel, std::size_t cells) {
         const double at =
             std::clamp((static_cast<double>(pixel) + 0.5) / static_cast<double>(zoom) - 0.5, 0.0,
@@ -277,6 +304,12 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
         const auto [y0, y1, fy] = place(y, terrain.height);
         for (std::size_t x = 0; x < width; ++x) {
             const auto [x0, x1, fx] = place(x, terrain.width);
+            const auto depth = [&](std::size_t row) {
+                const double a = depth_m[row * terrain.width + x0],
+                             b = depth_m[row * terrain.width + x1];
+                return a + (b - a) * fx;
+            };
+            depths_m[y * width + x] = depth(y0) + (depth(y1) - depth(y0)) * fy;
             const Rgb top =
                 mixed(small[y0 * terrain.width + x0], small[y0 * terrain.width + x1], fx);
             const Rgb color = mixed(
@@ -287,7 +320,10 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
             }
         }
     }
-    const Pixels words = to_pixels(caption(terrain, map, model, width, zoom), 1.0);
+    const std::vector<double> levels_m =
+        depth_levels_m(*std::max_element(depth_m.begin(), depth_m.end()));
+    draw_depth_lines(depths_m, width, levels_m, rgb);
+    const Pixels words = to_pixels(caption(terrain, map, model, width, zoom, levels_m), 1.0);
     rgb.insert(rgb.end(), words.rgb.begin(), words.rgb.end());
     texproc::write_png8(path, static_cast<int>(width), static_cast<int>(height) + words.height, 3,
                         rgb, {{"time_utc", weather::iso_from_us(map.time_us)}});

@@ -374,10 +374,14 @@ Observations observations_of(const weather::ForcingTable& table)
     take(Field::Condition, "road_condition", 0.0);
     take(Field::Friction, "wheel_friction", 0.0);
     if (table.has(Field::Reflected) && table.has(Field::Shortwave)) {
+        // Where no depth tells, what is darker than old snow is the ground's (Oke 1987: soil and grass
+        // to 0.35).
+        constexpr double kLeastOfSnow = 0.4;
         ObservedColumn albedo{"snow_albedo", {}, {}};
         for (std::size_t i = 0; i < table.rows(); ++i) {
             const double sun = table[Field::Shortwave][i], up = table[Field::Reflected][i];
-            const bool snow = !table.has(Field::SnowDepth) || table[Field::SnowDepth][i] > 0.1;
+            const bool snow = table.has(Field::SnowDepth) ? table[Field::SnowDepth][i] > 0.1
+                                                          : up > kLeastOfSnow * sun;
             // A low sun measures the mast and the tilt of the sensor.
             if (!(sun > 150.0) || std::isnan(up) || !snow || up > sun) continue;
             albedo.time_us.push_back(table.time_us[i]);

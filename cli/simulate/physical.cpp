@@ -190,9 +190,10 @@ weather::PhysicalTimeline timeline_of(const weather::ReadResult& read, const Phy
     if (run.resume.empty() && !run.road_observed.surface_c.empty()) {
         const weather::MetroObservation& o = run.road_observed;
         return {read.table, params,
-                weather::observed_start(
-                    read.table, params,
-                    {o.table.time_us, o.surface_c, o.subsurface_c, run.road_depth_m}),
+                with_water(weather::observed_start(read.table, params,
+                                                   {o.table.time_us, o.surface_c, o.subsurface_c,
+                                                    run.road_depth_m}),
+                           run.road_water),
                 read.table.time_us.front()};
     }
     if (run.resume.empty() && run.initial_surface_c) {

@@ -9,6 +9,7 @@
 #include "cli/report/table.h"
 #include "cli/rooms.h"
 #include "film/weather/weather_input.h"
+#include "weather/models/physical/observed_water.h"
 #include "weather/models/physical/physical.h"
 #include "weather/readers/metro_xml.h"
 #include "weather/readers/read_weather.h"
@@ -24,6 +25,7 @@ struct PhysicalRun {
     std::optional<weather::Surface> road;       ///< of a METRo station, instead of the preset
     weather::MetroObservation road_observed{};  ///< the run begins at its last temperature
     weather::ForcingTable road_weather{};       ///< of the hours that it was observed in
+    weather::RoadWater road_water{};            ///< that they have left on it
     double road_depth_m = 0.4;                  ///< of its sub-surface thermometer
     weather::Horizon horizon{};                 ///< empty: open
     std::vector<weather::RoadEvent> events{};   ///< salt and ploughs

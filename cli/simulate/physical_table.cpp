@@ -95,6 +95,12 @@ PlotSeries area(const char* column, const char* label, const char* color, double
 {
     return {.column = column, .label = label, .color = color, .filled = true, .scale = scale};
 }
+PlotSeries rate(const char* column, const char* label, const char* color, double scale)
+{
+    PlotSeries series = area(column, label, color, scale);
+    series.steps = true;
+    return series;
+}
 
 }  // namespace
 
@@ -197,8 +203,8 @@ std::vector<PlotPanel> physical_panels()
     return {
         free("air temperature, \u00b0C", "weather", {line("air_temp_c", "", "#c8442e")}, true),
         free("precipitation, mm/h", "weather",
-             {area("rain_kg_m2_s", "rain", "#1d5fc1", 3600.0),
-              area("snowfall_kg_m2_s", "snow", "#56b4e9", 3600.0)},
+             {rate("rain_kg_m2_s", "rain", "#1d5fc1", 3600.0),
+              rate("snowfall_kg_m2_s", "snow", "#56b4e9", 3600.0)},
              true),
         free("radiation, W/m\u00b2", "heat",
              {line("sw_down_w_m2", "sun", "#e09c14"), line("lw_down_w_m2", "sky", "#8450b0")},

@@ -176,12 +176,27 @@ void begin_at_measurement(const std::string& file, PhysicalInput& input)
                               " rows and taken as it is: if nothing measured it, leave <sst> out");
 }
 
-// What the measured road says about the radiation before the run, kept on into it.
-void couple_to_measurement(const SimulateOptions& options, PhysicalInput& input)
+// What the rain of the measured hours has left on the road.
+void wet_by_measurement(PhysicalInput& input)
 {
     PhysicalRun& run = input.run;
     weather::ReadReport unheard;  // the same fills are told of the forecast
     weather::fill_forcing(run.road_weather, unheard);
+    const weather::MetroObservation& o = run.road_observed;
+    run.road_water =
+        weather::observed_water(run.road_weather, physical_params(run),
+                                {o.table.time_us, o.surface_c, o.subsurface_c, run.road_depth_m});
+    if (run.road_water.sum() < 0.01) return;
+    char line[100];
+    std::snprintf(line, sizeof line, "the measured hours leave %.2f kg/m2 of water on the road",
+                  run.road_water.sum());
+    input.notes.emplace_back(line);
+}
+
+// What the measured road says about the radiation before the run, kept on into it.
+void couple_to_measurement(const SimulateOptions& options, PhysicalInput& input)
+{
+    PhysicalRun& run = input.run;
     const weather::MetroObservation& o = run.road_observed;
     const auto correction = weather::couple_radiation(
         run.road_weather, physical_params(run),
@@ -248,6 +263,7 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
         input.notes.emplace_back(line);
     }
     if (!options.events.empty()) read_events(options.events, input);
+    if (!run.road_weather.time_us.empty()) wet_by_measurement(input);
     if (!run.road_weather.time_us.empty() && options.coupling.window_h != 0.0)
         couple_to_measurement(options, input);
     if (!options.initial.empty()) read_initial(options.initial, run);

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "cli/report/plot_axes.h"
+#include "cli/simulate/depth_lines.h"
 #include "cli/simulate/grid_map.h"
 #include "cli/simulate/relief.h"
 #include "tests/support/program.h"
@@ -211,6 +212,40 @@ TEST(Grid, SteepSlopesInCalmSunStayFinite)
     }
 }
 
+TEST(DepthLines, StandAtRoundDepthsWhereColourTellsNoMore)
+{
+    EXPECT_TRUE(depth_levels_m(0.0).empty());
+    EXPECT_TRUE(depth_levels_m(0.3).empty());
+    for (const double deepest_m : {0.42, 0.9, 1.3, 2.7, 8.0, 30.0}) {
+        const auto levels = depth_levels_m(deepest_m);
+        ASSERT_FALSE(levels.empty()) << deepest_m;
+        EXPECT_LE(levels.size(), 6u);
+        EXPECT_GT(levels.front(), 0.3);
+        EXPECT_LT(levels.back(), deepest_m);
+    }
+    const auto deep = depth_levels_m(2.7);
+    ASSERT_EQ(deep.size(), 5u);
+    EXPECT_NEAR(deep[0], 0.5, 1e-12);
+    EXPECT_NEAR(deep[4], 2.5, 1e-12);
+}
+
+TEST(DepthLines, RunBetweenTheirSides)
+{
+    // 4 x 2 pixels: 0.2, 0.4, 0.6, 0.6 m over the same and a deeper last one.
+    const std::vector<double> depth_m{0.2, 0.4, 0.6, 0.6, 0.2, 0.4, 0.6, 1.2};
+    const std::vector<double> levels{0.5, 1.0};
+    std::vector<std::uint8_t> rgb(24, 200);
+    draw_depth_lines(depth_m, 4, levels, rgb);
+    const auto drawn = [&](std::size_t pixel) { return rgb[3 * pixel] != 200; };
+    EXPECT_FALSE(drawn(0));
+    EXPECT_TRUE(drawn(1)) << "0.5 m lies between it and the next";
+    EXPECT_FALSE(drawn(2));
+    EXPECT_TRUE(drawn(3)) << "1 m lies between it and the one below";
+    EXPECT_TRUE(drawn(6));
+    EXPECT_FALSE(drawn(7)) << "the end of a row is no neighbour of the next";
+    EXPECT_LT(rgb[3 * 6], rgb[3 * 1]) << "the deeper the darker";
+}
+
 TEST(Grid, MapsHoldEveryStateAndShowTheSnow)
 {
     Workplace work("maps");
@@ -232,15 +267,16 @@ TEST(Grid, MapsHoldEveryStateAndShowTheSnow)
          {"snow_depth.m", "swe.kg_m2", "surface_temp.C", "mask.snow", "elevation.m"}) {
         EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
     }
-    const auto brightness = [&](const char* file) {
+    const auto brightness = [&](const char* file, bool deep) {
         const Image image = texproc::read_image(work / file);
         EXPECT_GE(image.width, 512);
-        EXPECT_EQ(image.height, image.width + 94) << "a square, two lines of words, a legend";
+        EXPECT_EQ(image.height, image.width + (deep ? 116 : 94))
+            << "a square, two lines of words, a legend, and one of deep snow";
         double sum = 0;
         for (const float v : image.pixels) sum += static_cast<double>(v);
         return sum / static_cast<double>(image.pixels.size());
     };
-    EXPECT_GT(brightness("map_20240308T0000.png"), brightness("map_20240320T0000.png") + 0.05)
+    EXPECT_GT(brightness("map_20240308T0000.png", true), brightness("map_20240320T0000.png", false) + 0.05)
         << "white, then less so";
     EXPECT_THROW(write_grid_map(work / "map.gif", terrain, {}, run.model), Error);
 }

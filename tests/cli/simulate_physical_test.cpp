@@ -504,6 +504,43 @@ TEST(Report, WhatTheFileObservedIsDrawn)
     EXPECT_EQ(t.scores.size(), 2u);
 }
 
+// An hour of rain is an hour of rain in the picture: no slope leads up to it.
+TEST(Report, RainIsDrawnInSteps)
+{
+    std::string text = "time,air_temp_c,rain_mm,snowfall_mm\n";
+    for (int hour = 0; hour < 10; ++hour) {
+        char line[60];
+        std::snprintf(line, sizeof line, "2024-02-01T%02d:00Z,9,%d,0\n", hour, hour == 4 ? 3 : 0);
+        text += line;
+    }
+    SimulationTable t = simulated(text, city());
+    std::size_t steps = 0;
+    for (const PlotPanel& panel : t.panels)
+        for (const PlotSeries& series : panel.series) steps += series.steps;
+    EXPECT_EQ(steps, 2u) << "rain and snow alone";
+    const std::string stepped = svg_plot(t);
+    EXPECT_NE(html_report(t).find("\"steps\":true"), std::string::npos);
+    for (PlotPanel& panel : t.panels)
+        for (PlotSeries& series : panel.series) series.steps = false;
+    EXPECT_EQ(html_report(t).find("\"steps\":true"), std::string::npos);
+    EXPECT_GT(stepped.size(), svg_plot(t).size()) << "corners between the rows";
+}
+
+// Light that comes back from a meadow says nothing about snow; without a depth its share tells which.
+TEST(Report, LightFromBareGroundIsNoSnowsAlbedo)
+{
+    const auto albedo_scores = [](const char* up) {
+        const SimulationTable t = simulated(
+            std::string("time,air_temp_c,precip_mm,sw_down_w_m2,sw_up_w_m2\n2024-01-01T10:00,-5,2,400,") +
+                up + "\n2024-01-01T11:00,-5,2,420," + up + "\n2024-01-01T12:00,-5,0,430," + up + "\n",
+            city());
+        return std::count_if(t.scores.begin(), t.scores.end(),
+                             [](const auto& s) { return s.column == "snow_albedo"; });
+    };
+    EXPECT_EQ(albedo_scores("90"), 0);
+    EXPECT_EQ(albedo_scores("310"), 1);
+}
+
 TEST(Report, RunwaysOfMetarAreCompared)
 {
     // A dry runway, then heavy snow that stays: dry, wet and white count as three classes.

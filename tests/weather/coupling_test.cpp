@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "weather/forcing/cut_forcing.h"
+#include "weather/models/physical/observed_water.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/text.h"
 
@@ -219,6 +220,30 @@ TEST(Coupling, GapsInTheMeasurementsAreNotMeasurements)
     EXPECT_EQ(found.begin_us, m.time_us[19]);
     EXPECT_EQ(found.end_us, m.time_us[35]);
     EXPECT_NEAR(found.factor, 0.7, 0.02);
+}
+
+// Rain of the measured hours lies on the road when a forecast begins, and dries there.
+TEST(ObservedWater, IsWhatTheMeasuredHoursHaveLeft)
+{
+    const ForcingTable dry = day_of(0.9, 8.0);
+    ForcingTable wet = dry;
+    for (int i = 30; i < 36; ++i) wet[Field::Precip][static_cast<std::size_t>(i)] = 2.0 / 3600.0;
+    const Measured m = measured_on(dry, 3.0, 7.0);
+    EXPECT_EQ(observed_water(dry, road(), m.all()).sum(), 0.0);
+    const RoadWater after = observed_water(wet, road(), m.all());
+    EXPECT_GT(after.film, 0.1);
+    EXPECT_GT(after.puddle, 0.0);
+    const Measured until_noon = measured_on(dry, 3.0, 12.0);
+    EXPECT_LT(observed_water(wet, road(), until_noon.all()).film, 0.5 * after.film);
+    // Measurements that end before it rains, and one alone, know of none.
+    EXPECT_EQ(observed_water(wet, road(), measured_on(dry, 3.0, 4.5).all()).sum(), 0.0);
+    EXPECT_EQ(observed_water(wet, road(), measured_on(dry, 3.0, 3.0).all()).sum(), 0.0);
+
+    const CellState start = with_water(observed_start(wet, road(), m.all()), after);
+    EXPECT_EQ(start.film, after.film);
+    EXPECT_EQ(start.crack, after.crack);
+    EXPECT_EQ(start.puddle, after.puddle);
+    EXPECT_EQ(start.surface_temp_c, m.surface_c.back());
 }
 
 }  // namespace

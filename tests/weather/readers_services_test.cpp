@@ -94,6 +94,7 @@ TEST(VisualCrossing, JsonHasItsTimesAndIsMetric)
     EXPECT_NEAR(at(table, Field::Precip, one) * 3600.0, 0.4, 1e-9);
     EXPECT_NEAR(at(table, Field::SnowDepth, one), 0.624, 1e-9);
     EXPECT_EQ(at(table, Field::SnowShare, one), 1.0);
+    EXPECT_NEAR(at(table, Field::Pressure, one), 101120.0, 1e-6) << "of the sea: no elevation is known";
     EXPECT_THAT(notes(report), HasSubstr("group uk"));
 }
 
@@ -104,6 +105,20 @@ TEST(VisualCrossing, DaysAndFilesWhoseUnitsNothingTellsAreRefused)
     EXPECT_THAT(refusal(with(hours, ",dew,", ",other,")), HasSubstr("names no units"));
     EXPECT_THAT(refusal(with(corpus("visual_crossing.json"), "\"hours\"", "\"none\"")),
                 HasSubstr("days, no hours"));
+}
+
+TEST(VisualCrossing, AFewChosenColumnsAreKnownAsItsOwn)
+{
+    const std::string text =
+        "datetime,temp,dew,humidity,windspeed,preciptype\n2024-01-16T06:00:00,33,23,66.3,9,\n"
+        "2024-01-16T07:00:00,34,23,63.7,9,\n2024-01-16T08:00:00,35,23,61.2,9,\n"
+        "2024-01-16T09:00:00,36,23,58.8,9,\n2024-01-16T10:00:00,37,23,56.5,9,\n";
+    EXPECT_EQ(raw(text).report.format, "Visual Crossing CSV");
+    EXPECT_NEAR(raw(text).table[Field::AirTemp][0], 273.71, 0.01);
+    // No column is its own: a table of no units, whose temperatures cannot be Celsius.
+    const std::string plain = with(with(text, "preciptype", "note"), "dew,", "dew_point,");
+    EXPECT_THAT(refusal(plain), HasSubstr("fit Fahrenheit"));
+    EXPECT_EQ(refusal(with(with(plain, "temp,", "temp_f,"), "dew_point,", "dew_point_f,")), "read");
 }
 
 TEST(OpenWeather, CsvInCelsius)

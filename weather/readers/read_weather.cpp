@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/solar.h"
+#include "weather/readers/air_scale.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/refused_kinds.h"
 #include "weather/readers/text.h"
@@ -146,6 +147,28 @@ void check_longwave(const ForcingTable& table, ReadReport& report)
     };
     if (!odd(falling, kFewFalling, kLeastFalling, " while rain or snow falls"))
         odd(all, kFew, kLeast, "");
+}
+
+// Where a file has dew points and humidities too, they tell in which scale its temperatures are. Below
+// 0 C humidity may be that over ice, and says nothing.
+void refuse_other_scale(const ForcingTable& table, const std::string& format)
+{
+    constexpr std::size_t kLooked = 1500;
+    if (!table.has(Field::AirTemp) || !table.has(Field::DewPoint) || !table.has(Field::RelHumidity))
+        return;
+    AirScale scale;
+    const std::size_t stride = table.rows() / kLooked + 1;
+    for (std::size_t i = 0; i < table.rows(); i += stride) {
+        const double air_c = table[Field::AirTemp][i] - kZeroCelsiusK;
+        if (air_c > 0.0)
+            scale.add(air_c, table[Field::DewPoint][i] - kZeroCelsiusK,
+                      table[Field::RelHumidity][i]);
+    }
+    if (scale.scale() != AirScale::Scale::Fahrenheit) return;
+    throw Error("weather: " + format +
+                    ": temperature, dew point and humidity fit Fahrenheit, not the unit that is "
+                    "named or taken",
+                "Name the columns air_temp_f and dew_point_f, or correct their unit.");
 }
 
 // Light of whole days beside that of a clear sky, whatever the clock of the file is.
@@ -388,6 +411,7 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
         for (std::int64_t& us : result.table.time_us)
             us -= static_cast<std::int64_t>(options.utc_offset_h * 3600e6);
     }
+    refuse_other_scale(result.table, result.report.format);
     check_sun(result.table, rows.zone_named(), result.report);
     check_light(result.table, result.report);
     check_longwave(result.table, result.report);

@@ -198,6 +198,8 @@ void read_json(std::string_view text, RowCollector& rows, const ReadOptions& opt
             h.time_us = static_cast<std::int64_t>(epoch) * 1000000;
             h.line = item.line;
             for (const Name& n : kNames) h.*n.value = number_of(item.find(n.name));
+            // The CSV's sealevelpressure.
+            if (std::isnan(h.sea_level)) h.sea_level = number_of(item.find("pressure"));
             if (const Json* kind = item.find("preciptype"))
                 for (const Json& word : kind->items) add_kind(h, word.text);
         }
@@ -208,7 +210,12 @@ void read_json(std::string_view text, RowCollector& rows, const ReadOptions& opt
 
 bool recognise_csv(const FileHead& head)
 {
-    return head.has_columns({"datetime", "feelslike", "sealevelpressure", "cloudcover"});
+    // People choose columns too: one that nobody else names so is enough.
+    if (!head.has_columns({"datetime", "temp"})) return false;
+    for (const char* own : {"feelslike", "sealevelpressure", "preciptype", "precipprob",
+                            "solarradiation", "solarenergy", "severerisk", "tempmax"})
+        if (head.has_columns({own})) return true;
+    return false;
 }
 bool recognise_json(const FileHead& head)
 {

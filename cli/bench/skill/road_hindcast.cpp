@@ -4,7 +4,7 @@
 #include <string>
 
 #include "weather/forcing/cut_forcing.h"
-#include "weather/models/physical/observed_start.h"
+#include "weather/models/physical/observed_water.h"
 #include "weather/physics/constants.h"
 
 namespace petrichor::cli {
@@ -90,7 +90,9 @@ private:
         ForcingTable corrected = plain;
         weather::correct_radiation(corrected,
                                    weather::couple_radiation(weather_, params_, known, coupling_));
-        const weather::CellState start = weather::observed_start(plain, params_, known);
+        const weather::CellState start =
+            with_water(weather::observed_start(plain, params_, known),
+                       weather::observed_water(weather_, params_, known));
         const weather::PhysicalTimeline coupled(corrected, params_, start, time(from)),
             started(plain, params_, start, time(from));
         for (const std::size_t i : measured_) {

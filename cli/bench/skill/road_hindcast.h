@@ -17,6 +17,7 @@ namespace petrichor::cli {
 ///   all ahead   one forecast, from the first measured value on: nothing to couple with
 ///   half ahead  one forecast, from the last value of the first half of the measured hours on
 ///   6 h ahead   one from each hour on that has three hours before it, each over the next six
+/// Each begins with the water that the hours before have left on the road (weather::observed_water).
 /// Of each: "road coupled" (weather::couple_radiation), "road started" (the same start, no
 /// correction), "air" and "road kept".
 ///

@@ -1,0 +1,41 @@
+#include "weather/models/physical/observed_water.h"
+
+#include <algorithm>
+
+#include "weather/forcing/cut_forcing.h"
+
+namespace petrichor::weather {
+
+RoadWater observed_water(const ForcingTable& weather, const PhysicalParams& params,
+                         const RoadTemperatures& measured)
+{
+    constexpr double kStep_s = 600.0;
+    const auto usable = [](double c) { return c > -90.0 && c < 100.0; };  // false for NaN
+    const auto& c = measured.surface_c;
+    const auto first = static_cast<std::size_t>(std::find_if(c.begin(), c.end(), usable) - c.begin());
+    std::size_t last = c.size();
+    while (last > first && !usable(c[last - 1])) --last;
+    if (last < first + 2 || measured.time_us.size() < last) return {};
+    const std::int64_t begin_us = measured.time_us[first], end_us = measured.time_us[last - 1];
+    const ForcingTable hours = cut_forcing(weather, begin_us, end_us);
+    PhysicalParams fine = params;
+    fine.step_s = std::min(fine.step_s, kStep_s);
+    fine.substep_s = std::min(fine.substep_s, fine.step_s);
+    const CellState start = observed_start(
+        hours, fine,
+        {measured.time_us.first(first + 1), c.first(first + 1),
+         measured.subsurface_c.first(std::min(first + 1, measured.subsurface_c.size())),
+         measured.subsurface_depth_m});
+    const CellState end = PhysicalTimeline(hours, fine, start, begin_us).state_at(end_us);
+    return {end.film, end.crack, end.puddle};
+}
+
+CellState with_water(CellState start, const RoadWater& water)
+{
+    start.film = water.film;
+    start.crack = water.crack;
+    start.puddle = water.puddle;
+    return start;
+}
+
+}  // namespace petrichor::weather
