@@ -57,6 +57,7 @@
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/snow_body.h"
 #include "formulas/weather/snow_glints.h"
+#include "formulas/weather/ice_pattern.h"
 #include "formulas/weather/run_off.h"
 #include "formulas/weather/soaked_walls.h"
 #include "formulas/weather/surface_weather.h"
@@ -65,7 +66,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 74;
+SHARED_CONST int kProbeKinds = 75;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -648,6 +649,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(falloff, lit.front.x - lit.back.y, kept.x + kept.y, kept.z);
     }
     if (kind == 73) return vec4(weak_shadow(a.x, b.x), weak_shadow(a.y, 1.0f), weak_shadow(a.z, 0.0f), weak_shadow(0.0f, b.y));
+    if (kind == 74) {
+        const vec2 at_m = 3.0f * vec2(a.x, a.y) - splat2(1.5f);
+        const vec3 iced = with_ice_pattern(vec3(b.x, b.y, b.z), 0.9f * b.w, a.w);
+        return vec4(1.0f + ice_white(at_m, 0.2f * a.z * a.z), 1.0f + ice_from_crack(4.0f * vec2(c.x, c.y)), 1.0f + iced.x, 1.0f + iced.z);
+    }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
 }
