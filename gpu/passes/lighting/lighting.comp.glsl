@@ -16,6 +16,7 @@
 #include "formulas/light/skin.h"
 #include "formulas/light/sun_cookie.h"
 #include "formulas/light/weak_shadow.h"
+#include "formulas/weather/ice_pattern.h"
 #include "formulas/weather/run_off.h"
 #include "formulas/weather/soaked_walls.h"
 #include "formulas/light/fog.h"
@@ -221,10 +222,10 @@ void main()
                 }
             }
             closed = closed_water(state);
-            if (ICE != 0u && closed > 0.0) {
-                const float ice = closed * frame.weather.water_to_snow;
+            // Cracks and bubbles, where any of a group is ice.
+            const float ice = ICE != 0u ? closed * frame.weather.water_to_snow : 0.0;
+            for (int once = 0; once < (ice > 0.0 ? 1 : 0); ++once)
                 m.albedo = patterned_ice(m.albedo, ice, ice_white(position.xz, v, pixel_width_m(frame, view_m) * inversesqrt(max(v.y, 0.05))));
-            }
             n = normalize(mix(n, g.cover_normal, m.normal_mix));
             if (TWO_LOBES) beside.normal = normalize(mix(beside.normal, g.cover_normal, m.normal_mix));
         }
