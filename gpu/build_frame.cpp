@@ -566,6 +566,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             variant.fog = c.fog_per_m > 0.0f;
             variant.gusts = any || c.gusts.z > 0.0f;
             variant.film = settings.film_lobe && weathered && (any || c.weather.film_smoothness > 0.0f);
+            variant.ice = weathered && (any || c.weather.water_to_snow > 0.0f);
             variant.night =
                 settings.draw_sky && sun.analytic && frame.sky.sun_elevation_rad < -0.03f;
         }

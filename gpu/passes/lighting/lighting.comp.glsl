@@ -218,10 +218,12 @@ void main()
                 }
             }
             closed = closed_water(state);
-            // Cracks and bubbles, where any of a group is ice.
-            const float ice = closed * frame.weather.water_to_snow;
-            for (int once = 0; once < (ice > 0.0 ? 1 : 0); ++once)
-                m.albedo = with_ice_pattern(m.albedo, ice, ice_white(position.xz, pixel_width_m(frame, view_m)));
+            if (ICE != 0u) {
+                // Cracks and bubbles, where any of a group is ice.
+                const float ice = closed * frame.weather.water_to_snow;
+                for (int once = 0; once < (ice > 0.0 ? 1 : 0); ++once)
+                    m.albedo = with_ice_pattern(m.albedo, ice, ice_white(position.xz, pixel_width_m(frame, view_m)));
+            }
             n = normalize(mix(n, g.cover_normal, m.normal_mix));
             if (TWO_LOBES) beside.normal = normalize(mix(beside.normal, g.cover_normal, m.normal_mix));
         }

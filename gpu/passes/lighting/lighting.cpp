@@ -52,6 +52,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_SPARKLE, variant.sparkle},
                       {LIGHTING_SPEC_PARTS, variant.split},
                       {LIGHTING_SPEC_FILM, variant.film},
+                      {LIGHTING_SPEC_ICE, variant.ice},
                       {LIGHTING_SPEC_GATHERS, variant.gathers},
                       {LIGHTING_SPEC_PROBES, variant.patch_light ? probes.count() : 0u},
                       {LIGHTING_SPEC_PICTURE, variant.mirrors_picture}},

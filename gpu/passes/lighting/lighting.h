@@ -44,6 +44,7 @@ struct LightingVariant {
     bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour
     bool sparkle = false;       ///< snow is seen under the sun
     bool film = false;               ///< of water, a lobe of its own
+    bool ice = false;                ///< standing water may be frozen
     bool split = false;              ///< the light is written taken apart, too: into `parts`
     GpuImage* parts = nullptr;       ///< never null in a pass (gpu/outputs/light_parts.h)
     GpuImage* shares = nullptr;      ///< of textures of layers; null: there are none

@@ -36,7 +36,8 @@
 #define LIGHTING_SPEC_PICTURE 25  // smooth surfaces mirror the picture itself
 #define LIGHTING_SPEC_SPARKLE 26  // snow under the sun has single crystals
 #define LIGHTING_SPEC_PROBES 27   // how many rough surfaces see
-#define LIGHTING_SPEC_MODEL 28    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_ICE 28      // standing water may be frozen
+#define LIGHTING_SPEC_MODEL 29    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1

@@ -25,6 +25,7 @@ layout(constant_id = LIGHTING_SPEC_GRAIN) const uint GRAIN = 0u;
 layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
 layout(constant_id = LIGHTING_SPEC_SPARKLE) const uint SPARKLE = 0u;
 layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
+layout(constant_id = LIGHTING_SPEC_ICE) const uint ICE = 0u;
 layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
 layout(constant_id = LIGHTING_SPEC_PROBES) const uint PROBES = 0u;
 layout(constant_id = LIGHTING_SPEC_PICTURE) const uint PICTURE = 1u;
