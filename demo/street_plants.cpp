@@ -107,7 +107,9 @@ void add_bush(Kit& kit, const vec3& centre, const vec3& radii, int leaves, int i
         const float angle = 6.2831853f * static_cast<float>(i) / 16.0f;
         const float polar = 3.14159265f * static_cast<float>(j) / 8.0f;
         const vec3 n(std::sin(polar) * std::cos(angle), std::cos(polar), std::sin(polar) * std::sin(angle));
-        return MeshBuilder::Point{centre + 0.44f * lump(n) * radii * n, glm::normalize(n / radii), vec2(0.5f), plants.color, plants.weather};
+        // Its poles are points.
+        const float lumpy = 1.0f + (lump(n) - 1.0f) * std::sin(polar);
+        return MeshBuilder::Point{centre + 0.44f * lumpy * radii * n, glm::normalize(n / radii), vec2(0.5f), plants.color, plants.weather};
     });
     constexpr int kPerTwig = 14;
     for (int k = 0; k < leaves / kPerTwig; ++k) {
