@@ -180,9 +180,9 @@ bool leaves_at(const Tracer& tracer, const Edge& edge, const vec3& middle, DripP
     }
     at.y -= board_m;
     const RayHit hit = tracer.nearest({at, down, kLongestFall_m});
-    if (hit.hit() && hit.distance_m < kOpenBelow_m) return false;
+    if (!hit.hit() || hit.distance_m < kOpenBelow_m) return false;
     point.from_m = at;
-    point.ground_m = hit.hit() ? at.y - hit.distance_m : DripPoint::kNoGround_m;
+    point.ground_m = at.y - hit.distance_m;
     return true;
 }
 
@@ -199,8 +199,8 @@ float open_run_m(const Tracer& tracer, const Edge& edge, const vec3& middle)
         const vec3 on = above - vec3(0.0f, hit.distance_m - 0.005f, 0.0f);
         if (!tracer.blocked({on, vec3(0.0f, 1.0f, 0.0f)})) run_m += kStandsFor_m[k];
     }
-    // What is level sheds to both sides.
-    return edge.level ? 0.5f * run_m : run_m;
+    // What is level sheds to the nearest edge: to one of two sides, and at an end from the corner between them.
+    return edge.level ? std::min(0.5f * run_m, 0.25f * edge.length_m) : run_m;
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,9 +13,8 @@ namespace petrichor::scene {
 
 /// A point of an edge that lets water go, drop by drop.
 struct DripPoint {
-    static constexpr float kNoGround_m = std::numeric_limits<float>::lowest();
     glm::vec3 from_m{0.0f};         ///< where drops come off: below what the water runs down over the edge
-    float ground_m = kNoGround_m;   ///< height of what is met straight below; kNoGround_m: nothing is near
+    float ground_m = 0.0f;          ///< height of what is met straight below
     float drained_m2 = 0.0f;        ///< in plan: what is open to the sky and runs off here
     std::uint32_t number = 0;       ///< follows from its place: what is hashed
 };
@@ -28,7 +26,8 @@ struct DripOptions {
 
 /// Where water drips from: the nearly level lower edges of what faces up and is open to the sky, as of
 /// roofs, awnings, sills, beams. None where something lies within 0.3 m below (a gutter, the next row of
-/// tiles, the ground), where a wall goes on below, and where a roof is above all that would drain there.
+/// tiles, the ground), where a wall goes on below, where a roof is above all that would drain there, and where
+/// nothing lies within 30 m below: the rim of the scene.
 ///
 /// The longest edges first, a point every 4 cm in the mean. Alike for any order of asking: made by one thread.
 std::vector<DripPoint> drip_points(const Tracer& tracer, const DripOptions& options = {});

@@ -25,7 +25,6 @@ constexpr float kSeenAt_m = 2.0f, kRoughness_m = 0.5f;  // as of rain
 constexpr float kLee = 0.5f;          // of that wind beside walls (ours)
 constexpr float kFarthest_m = 60.0f;
 constexpr float kFaintest = 0.01f;
-constexpr float kDeepestFall_m = 30.0f;
 constexpr float kTypical_m_s = 4.0f;
 // What a drop throws up: some beads a millimetre wide, by eye.
 constexpr int kBeads = 4;
@@ -71,7 +70,6 @@ public:
     void add(const Seen& seen, float share, std::vector<shared::FallingDrop>& drops) const
     {
         const scene::DripPoint& point = *seen.point;
-        const bool hits = point.from_m.y - seen.fall_m <= point.ground_m + 0.001f;
         const float longest_s = drip_fall_time_s(kLow_mm, seen.fall_m);
         const double lasts_s = static_cast<double>(longest_s + kBeadsLive_s);
         const double slot_s = static_cast<double>(kDripSlot_s);
@@ -87,7 +85,7 @@ public:
             const float lands_s = drip_fall_time_s(diameter_mm, seen.fall_m);
             if (age_s > -0.5f * shutter_s_ && age_s < lands_s) {
                 add_falling(point, diameter_mm, age_s, lands_s, drops);
-            } else if (hits && age_s >= lands_s && age_s < lands_s + kBeadsLive_s) {
+            } else if (age_s >= lands_s && age_s < lands_s + kBeadsLive_s) {
                 add_beads(point, seen.fall_m, diameter_mm, lands_s, age_s, numbers, drops);
             }
         }
@@ -217,7 +215,7 @@ std::vector<shared::FallingDrop> drips(std::span<const scene::DripPoint> points,
     std::vector<Seen> seen;
     double expected = 0.0;
     for (const scene::DripPoint& point : points) {
-        const float fall_m = std::min(point.from_m.y - std::max(point.ground_m, -1.0e6f), kDeepestFall_m);
+        const float fall_m = point.from_m.y - point.ground_m;
         if (!of.sees(point, fall_m)) continue;
         const float per_s = drips_per_s(point, runs_off);
         seen.push_back({&point, fall_m, per_s});
