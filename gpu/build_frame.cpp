@@ -376,11 +376,10 @@ FallingPlan plan_of(const Frame& frame, const Sun& sun, const FrameResources& r)
     return plan_falling(whole, falling_view(frame_constants(whole, sun, r.scene->bounds(), 0), frame.lens, whole.camera.shift));
 }
 
-// What is drawn of the whole picture's drops: those of the window, in its pixels. Returns how many the picture has.
-std::size_t keep_window(std::vector<shared::FallingDrop>& drops, const Frame& whole, const Frame& frame)
+// What is drawn of the whole picture's drops: those of the window, in its pixels.
+void keep_window(std::vector<shared::FallingDrop>& drops, const Frame& whole, const Frame& frame)
 {
-    const std::size_t all = drops.size();
-    if (&whole == &frame) return all;
+    if (&whole == &frame) return;
     const glm::vec2 size(frame.settings.width, frame.settings.height);
     const glm::vec2 corner(corner_px(whole, frame));
     std::erase_if(drops, [&](shared::FallingDrop& drop) {
@@ -390,7 +389,6 @@ std::size_t keep_window(std::vector<shared::FallingDrop>& drops, const Frame& wh
         const glm::vec2 middle = 0.5f * (drop.from_px + drop.to_px);
         return middle.x < -reach || middle.y < -reach || middle.x > size.x + reach || middle.y > size.y + reach;
     });
-    return all;
 }
 
 FallingFacts falling_facts(const FallingPlan& plan, const Frame& frame)
@@ -411,15 +409,21 @@ void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const Fallin
     const FrameSettings& settings = frame.settings;
     const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
     const bool glows = r.lamp_glow->prepare(frame, c, r.lights->brightest);
-    const bool falls = plan.drawn_reach_m > 0.0f;
+    const bool rains = plan.drawn_reach_m > 0.0f;
+    const bool drip = !r.drips.empty() && runs_off_kg_m2_s(frame.weather) > 0.0f;
+    const bool falls = rains || drip;
     facts = falling_facts(plan, frame);
     if (falls) {
         const Frame& whole = whole_of(frame, r);
         const FallingView view = falling_view(frame_constants(whole, sun, r.scene->bounds(), 0), frame.lens, whole.camera.shift);
-        std::vector<shared::FallingDrop> drops = falling_drops(plan, whole, view, r.lights->brightest);
-        facts.drawn = static_cast<std::uint32_t>(keep_window(drops, whole, frame));
+        std::vector<shared::FallingDrop> drops;
+        if (rains) drops = falling_drops(plan, whole, view, r.lights->brightest);
+        facts.drawn = static_cast<std::uint32_t>(drops.size());
+        if (drip) add_drips(drops, drips(r.drips, whole, view, r.lights->brightest));
+        keep_window(drops, whole, frame);
         r.falling->fill(drops);
-        r.splashes->fill(falling_splashes(plan, whole, view, r.lights->brightest));
+        r.splashes->fill(rains ? falling_splashes(plan, whole, view, r.lights->brightest)
+                               : std::vector<shared::FallingSplash>{});
     }
     const auto draw = [&](bool hides) {
         if (glows) add_lamp_glow(graph, *r.targets, *r.lamp_glow, constants);

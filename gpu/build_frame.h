@@ -6,6 +6,7 @@
 #include "gpu/outputs/light_parts.h"
 #include "gpu/passes/adaptive/adaptive.h"
 #include "gpu/passes/decals/decals.h"
+#include "gpu/passes/falling/drips.h"
 #include "gpu/passes/falling/falling.h"
 #include "gpu/passes/lamp_glow/lamp_glow.h"
 #include "gpu/passes/lighting/lighting.h"
@@ -40,6 +41,7 @@ struct FrameResources {
     SeenTriangles* triangles = nullptr;
     FallingTable* falling = nullptr;
     FallingTable* splashes = nullptr;
+    std::span<const scene::DripPoint> drips;  ///< where water comes off edges
     PatchLights* patches = nullptr;
     ProbeTable* probes = nullptr;
     GpuPlace* place = nullptr;

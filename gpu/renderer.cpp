@@ -364,6 +364,7 @@ struct Renderer::Impl {
     SkyMaps sky;
     LampGlow lamp_glow;
     FallingTable falling;
+    std::shared_ptr<const std::vector<scene::DripPoint>> drips;
     FallingTable splashes;
     PatchLights patches;
     ProbeTable probes;
@@ -398,6 +399,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
     for (TargetSet* set : {&impl_->pictures, &impl_->metering}) set->resolve = {};
     impl_->scene = nullptr;
     impl_->patches.load(nullptr);
+    impl_->drips = nullptr;
     impl_->triangles.forget();
     impl_->depth_maps.forget();
     impl_->lamp_shadows.forget();
@@ -437,6 +439,11 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
 void Renderer::set_patches(std::shared_ptr<const PatchScene> patches)
 {
     impl_->patches.load(std::move(patches));
+}
+
+void Renderer::set_drips(std::shared_ptr<const std::vector<scene::DripPoint>> drips)
+{
+    impl_->drips = std::move(drips);
 }
 
 void Renderer::set_environment(const EnvironmentMap& map)
@@ -513,6 +520,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, Targ
     resources.triangles = &triangles;
     resources.falling = &falling;
     resources.splashes = &splashes;
+    if (drips) resources.drips = *drips;
     resources.patches = &patches;
     resources.probes = &probes;
     resources.place = &place;

@@ -21,6 +21,7 @@
 
 namespace petrichor::scene {
 struct SnowCaps;
+struct DripPoint;
 }
 
 namespace petrichor::gpu {
@@ -68,6 +69,9 @@ public:
     /// Light between the surfaces of the loaded scene goes by these patches from now on (and the
     /// switch of each frame); null, and load(): by none.
     void set_patches(std::shared_ptr<const PatchScene> patches);
+
+    /// Where drops come off edges in frames that are wet (scene/drips); null, and load(): nowhere.
+    void set_drips(std::shared_ptr<const std::vector<scene::DripPoint>> drips);
 
     RenderResult render(const Frame& frame);
 

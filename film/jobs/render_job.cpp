@@ -23,6 +23,7 @@
 #include "film/jobs/scene_places.h"
 #include "film/jobs/scene_source.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenes/drip_scene.h"
 #include "film/scenes/light_picture.h"
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
@@ -33,6 +34,7 @@
 #include "film/scenes/transport.h"
 #include "film/scenes/weather_textures.h"
 #include "film/tiles/tiled_picture.h"
+#include "gpu/passes/falling/drips.h"
 #include "scene/merge.h"
 
 namespace petrichor::film {
@@ -184,6 +186,20 @@ bool may_snow(const Sequence& sequence, const RenderRequest& request)
             const shared::WeatherMoment& w = variant.weather.at(time_s).values;
             if (w.snow_amount > 0.0f || (variant.weather.table && w.air_temperature_k < kWarm_k))
                 return true;
+        }
+    }
+    return false;
+}
+
+// Whether water comes off edges in any frame that is asked for.
+bool may_drip(const Sequence& sequence, const RenderRequest& request)
+{
+    const ScenarioRender& render = sequence.scenario.render;
+    if (!render.falling || render.falling_budget <= 0) return false;
+    for (const Job& job : jobs_of(sequence, request.range, request.shard)) {
+        for (const SequenceVariant& variant : sequence.variants) {
+            if (variant.name != job.variant) continue;
+            if (gpu::runs_off_kg_m2_s(variant.weather.at(frame_time_s(sequence, job.frame)).values) > 0.0f) return true;
         }
     }
     return false;
@@ -403,6 +419,8 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
         }
         report.notes.push_back("light between surfaces: ambient " + why);
     }
+    std::shared_ptr<const std::vector<scene::DripPoint>> drips;
+    if (may_drip(sequence, request)) drips = prepare_drips(sequence.scene, user_cache(), report.notes);
     const std::shared_ptr<const scene::SnowCaps> snow = snow_made.get();
     report.notes.insert(report.notes.end(), snow_notes.begin(), snow_notes.end());
     TextureOptions options;
@@ -422,6 +440,7 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
     for (gpu::Renderer& renderer : renderers) {
         renderer.load(sequence.scene, textures, snow);
         renderer.set_patches(patches);
+        renderer.set_drips(drips);
     }
     return renderers;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "formulas/light/lamp_glow.h"
+#include "scene/drips/drip_points.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {
@@ -109,6 +110,36 @@ TEST_F(FallingTest, NothingFallsUnderARoof)
     EXPECT_EQ(changed_pixels(under, without(*renderer, frame)), 0);
     frame.settings.shelter = false;
     EXPECT_GT(changed_pixels(renderer->render(frame), under), 1000) << "roofs are let through";
+}
+
+// An edge right before the wall, 2 m up, under a roof that keeps all rain off.
+TEST_F(FallingTest, DropsComeOffEdgesWhileAndAfterItRains)
+{
+    Scene scene = wall(6.0f);
+    scene.meshes[0].primitives.push_back(quad({-40, 4, 20}, {80, 0, 0}, {0, 0, -60}));
+    renderer->load(scene, {});
+    auto points = std::make_shared<std::vector<scene::DripPoint>>();
+    for (std::uint32_t i = 0; i < 100; ++i)
+        points->push_back({{-2.0f + 0.04f * static_cast<float>(i), 1.5f, -4.0f}, -1.6f, 0.3f, i * 7919u});
+    Frame frame = downpour();
+    frame.weather.film_mm = 1.0f;
+    const RenderResult none = without(*renderer, frame);
+    EXPECT_EQ(changed_pixels(renderer->render(frame), none), 0) << "no edges yet, and a roof";
+    renderer->set_drips(points);
+    const RenderResult raining = renderer->render(frame);
+    EXPECT_GT(changed_pixels(raining, none), 300);
+    EXPECT_EQ(changed_pixels(without(*renderer, frame), none), 0);
+    frame.settings.time_s = 9.0;
+    renderer->render(frame);
+    frame.settings.time_s = 1.0;
+    EXPECT_EQ(renderer->render(frame).beauty, raining.beauty) << "whatever was drawn before";
+    Frame after = frame;
+    after.weather.rain_kg_m2_s = 0.0f;
+    EXPECT_GT(changed_pixels(renderer->render(after), without(*renderer, after)), 50);
+    after.weather.film_mm = 0.0f;
+    EXPECT_EQ(changed_pixels(renderer->render(after), without(*renderer, after)), 0) << "dry";
+    renderer->load(scene, {});
+    EXPECT_EQ(changed_pixels(renderer->render(frame), none), 0) << "another scene has edges of its own";
 }
 
 TEST_F(FallingTest, WhatIsBehindASurfaceIsHidden)

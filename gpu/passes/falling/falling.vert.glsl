@@ -85,5 +85,5 @@ void main()
     }
     radiance += lamps.rgb;
     light = vec4(min(radiance, vec3(60000.0)), view_m);
-    if (SHELTER != 0u && sheltered(place.xyz)) gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
+    if (SHELTER != 0u && shape.w > -0.5 && sheltered(place.xyz)) gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
 }

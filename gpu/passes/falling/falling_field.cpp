@@ -13,23 +13,14 @@ namespace petrichor::gpu {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr float kNear_m = 0.3f;     // nearer ones are a blur on the lens
-constexpr float kWhole_m = 0.7f;    // they come in until here
-constexpr float kFadeFrom = 0.75f;  // and go from this share of the reach on
 constexpr float kFarthest_m = 250.0f;
 constexpr float kFaintest = 0.01f;  // a hundredth is not seen
 constexpr double kMostInCell = 400.0;
 constexpr float kMostRain_mm_h = 1000.0f;  // nothing has been measured beyond: no more are drawn
 constexpr float kMostSnow_mm_h = 100.0f;
-constexpr float kLongest_px = 200.0f;  // of a streak that begins outside of the picture
 // Drops are seen near the ground: the wind at 2 m over a suburb.
 constexpr float kSeenAt_m = 2.0f;
 constexpr float kRoughness_m = 0.5f;
-
-// A camera without an aperture shows all of the scene sharp, but the drop before its front glass is a
-// blur to anyone who has been out: 35 mm at f/13, focused on the street.
-constexpr float kUsualLens_m = 0.0013f;
-constexpr float kUsualFocus_m = 6.0f;
 
 constexpr float kDrops_m_s = 6.5f;  // of 2 mm
 constexpr float kFlakes_m_s = 1.1f;
@@ -380,13 +371,6 @@ private:
         }
     }
 
-    glm::vec2 on_screen(const glm::vec3& from_eye) const
-    {
-        const float scale = view_->focal_px / std::max(glm::dot(from_eye, view_->forward), 0.1f);
-        return {half_px_.x * (1.0f - view_->shift.x) + glm::dot(from_eye, view_->right) * scale,
-                half_px_.y * (1.0f + view_->shift.y) - glm::dot(from_eye, view_->up) * scale};
-    }
-
     // Off the picture, with what may yet be added to a place.
     bool far_aside(const glm::vec3& from_eye, float most) const
     {
@@ -422,11 +406,7 @@ private:
         const float z = glm::dot(from_eye, view_->forward);
         if (z <= kNear_m || z >= reach) return;
         const glm::vec3 moves = speed_m_s_ + sway.speed_m_s;
-        const glm::vec3 half_way = moves * (0.5f * shutter_s_);
         shared::FallingDrop drop{};
-        drop.from_px = on_screen(from_eye - half_way);
-        drop.to_px = on_screen(from_eye + half_way);
-        drop.view_m = z;
         drop.diameter_m = glm::mix(class_->low_mm, class_->high_mm, numbers.next()) * 1e-3f;
         float seen_px = drop.diameter_m * view_->focal_px / z;
         if (flake_) {
@@ -434,21 +414,7 @@ private:
             drop.flake = 1.0f + numbers.next();
             seen_px *= std::sqrt(0.5f + numbers.next());
         }
-        drop.half_px = shared::spot_radius_px(seen_px, view_->blur_px(z));
-        const glm::vec2 middle = on_screen(from_eye);
-        const glm::vec2 low = glm::max(glm::min(drop.from_px, drop.to_px), middle - kLongest_px) -
-                              drop.half_px;
-        const glm::vec2 high = glm::min(glm::max(drop.from_px, drop.to_px), middle + kLongest_px) +
-                               drop.half_px;
-        if (high.x < 0.0f || high.y < 0.0f || low.x > 2.0f * half_px_.x ||
-            low.y > 2.0f * half_px_.y) {
-            return;
-        }
-        const float there = glm::smoothstep(kNear_m, kWhole_m, z) *
-                            (1.0f - glm::smoothstep(kFadeFrom * reach, reach, z));
-        drop.opacity = shared::spot_opacity(seen_px, drop.half_px) * there;
-        if (drop.opacity <= 0.0f) return;
-        drop.position_m = view_->eye_m + from_eye;
+        if (!see_drop(*view_, from_eye, moves * (0.5f * shutter_s_), seen_px, reach, drop)) return;
         drop.speed_m_s = glm::length(moves);
         drop.lamps = light_of(*lamps_, drop.position_m, view_->eye_m, flake_);
         drops.push_back(drop);
@@ -473,25 +439,6 @@ private:
 };
 
 }  // namespace
-
-float FallingView::blur_px(float distance_m) const
-{
-    return focal_px * lens.radius_m * std::abs(1.0f / lens.focus_m - 1.0f / distance_m);
-}
-
-FallingView falling_view(const shared::FrameConstants& c, const Lens& lens, const glm::vec2& shift)
-{
-    FallingView view;
-    view.eye_m = c.camera_m;
-    view.forward = c.forward;
-    view.right = glm::normalize(c.ray_dx);
-    view.up = -glm::normalize(c.ray_dy);
-    view.focal_px = 1.0f / std::max(glm::length(c.ray_dx), 1e-9f);
-    view.size = c.size;
-    view.shift = shift;
-    view.lens = lens.radius_m > 0.0f ? lens : Lens{.radius_m = kUsualLens_m, .focus_m = kUsualFocus_m};
-    return view;
-}
 
 FallingPlan plan_falling(const Frame& frame, const FallingView& view)
 {

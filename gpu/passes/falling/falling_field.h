@@ -3,27 +3,9 @@
 
 #include <vector>
 
-#include "gpu/frame/frame.h"
-#include "gpu/frame/frame_io.h"
-#include "gpu/passes/falling/falling_io.h"
+#include "gpu/passes/falling/falling_view.h"
 
 namespace petrichor::gpu {
-
-/// How the camera sees what falls.
-struct FallingView {
-    glm::vec3 eye_m{0.0f};
-    glm::vec3 right{1.0f, 0.0f, 0.0f}, up{0.0f, 1.0f, 0.0f}, forward{0.0f, 0.0f, -1.0f};
-    float focal_px = 1000.0f;
-    glm::ivec2 size{1280, 720};
-    glm::vec2 shift{0.0f};  ///< of the lens, as scene::Camera's
-    Lens lens;
-
-    /// Radius of the disc that a point at a distance becomes.
-    float blur_px(float distance_m) const;
-};
-/// lens: without an aperture, near drops are as blurred as in a usual camera.
-FallingView falling_view(const shared::FrameConstants& constants, const Lens& lens,
-                         const glm::vec2& shift = glm::vec2(0.0f));
 
 /// Drops or flakes of about one size: all of a class fall at one speed.
 struct FallingClass {

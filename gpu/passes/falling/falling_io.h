@@ -29,7 +29,7 @@ struct FallingDrop {
     float view_m;     // distance along the view axis
     float half_px;    // of the spot that moves along its way
     float opacity;    // of that spot's middle at rest
-    float flake;      // 0 a drop; a flake: 1 + where its outline begins, 0..1
+    float flake;      // 0 a drop; a flake: 1 + where its outline begins, 0..1; -1 a drop off an edge, which no roof keeps off
     vec3 position_m;  // world
     float speed_m_s;
     vec3 lamps;       // radiance that lamps give it
