@@ -58,9 +58,9 @@ SHARED_FN vec2 ice_cracks(vec2 at, float size_m, float width_m, float share, vec
     const float there = hash_f(border) < share ? 1.0f : 0.0f;
     const float half_m = width_m * (0.2f + 0.6f * hash_f(border + 1u));
     const float along_m = dot(sheet_m, across) / apart;
-    const float line = line_share(distance_m - half_m, distance_m + half_m, pixel_m);
+    const float crack = line_share(distance_m - half_m, distance_m + half_m, pixel_m);
     const float band = line_share(distance_m - max(-along_m, 0.0f), distance_m + max(along_m, 0.0f), pixel_m);
-    return there * vec2(line, band);
+    return there * vec2(crack, band);
 }
 
 // A disc in most cells where bubbles are many, none where they are few.

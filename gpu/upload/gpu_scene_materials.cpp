@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "gpu/upload/gpu_scene.h"
 #include "gpu/upload/material_constants.h"
-#include "gpu/upload/parallax_ends.h"
+#include "gpu/upload/parallax_ends_io.h"
 #include "gpu/upload/wide_ground.h"
 
 namespace petrichor::gpu {

@@ -86,6 +86,8 @@ TEST(Drips, NoneWhereItIsDryOrFrozenAndWhileRainWetsTheGround)
     w.air_temperature_k = 272.0f;
     EXPECT_TRUE(none(w));
     w.air_temperature_k = 276.15f;
+    EXPECT_TRUE(none(w)) << "the pack is cold yet";
+    w.melt = 0.1f;
     EXPECT_NEAR(runs_off_kg_m2_s(w) * 3600.0f, 0.6f, 1e-4f) << "melts by the degree";
     EXPECT_TRUE(drips(edge(), wet(0.0f), FallingView{}, {}).empty()) << "out of sight";
     Frame off = wet(5.0f);

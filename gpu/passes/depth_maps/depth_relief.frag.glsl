@@ -6,7 +6,7 @@
 #include "formulas/weather/parallax.h"
 #include "gpu/passes/depth_maps/depth_holes.glsl"
 #include "gpu/passes/depth_maps/depth_maps_io.h"
-#include "gpu/upload/parallax_ends.h"
+#include "gpu/upload/parallax_ends_io.h"
 
 layout(constant_id = DEPTH_SPEC_PARALLAX) const uint PARALLAX = PARALLAX_SIMPLE;
 

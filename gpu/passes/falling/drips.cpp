@@ -165,8 +165,10 @@ float runs_off_kg_m2_s(const shared::WeatherMoment& w)
     const float rain_mm_h = w.rain_kg_m2_s * 3600.0f * wet;
     const float shed_mm_h = std::clamp((w.film_mm - kHeld_mm) * kSheds_1_s * 3600.0f, 0.0f, kMostShed_mm_h);
     const float warm_k = std::max(w.air_temperature_k - 273.15f, 0.0f);
+    // A pack above freezing is cold for a while yet: it drips once it holds water.
+    const bool thaws = w.melt > 0.0f || w.snow_liquid_fraction > 0.0f;
     const float melt_mm_h =
-        w.swe_kg_m2 > 0.0f ? std::min(kMelt_mm_h_k * warm_k, kMostMelt_mm_h) * std::min(w.swe_kg_m2, 1.0f) : 0.0f;
+        thaws && w.swe_kg_m2 > 0.0f ? std::min(kMelt_mm_h_k * warm_k, kMostMelt_mm_h) * std::min(w.swe_kg_m2, 1.0f) : 0.0f;
     const float sum_mm_h = std::max(rain_mm_h, shed_mm_h) + melt_mm_h;
     return sum_mm_h < kLeast_mm_h ? 0.0f : sum_mm_h / 3600.0f;
 }

@@ -5,7 +5,7 @@
 #include "formulas/noise/noise.h"
 #include "gpu/passes/surface/textures.glsl"
 #include "gpu/frame/picture_pixel.glsl"
-#include "gpu/upload/parallax_ends.h"
+#include "gpu/upload/parallax_ends_io.h"
 
 // Not where water shifts the lookup to: a hole stays where it is.
 float surface_alpha(SurfaceInput at)

@@ -1,7 +1,7 @@
 // Relief of a material with holes that is a hole beyond the edges of its height map, where the sampler of that map ends there
 // (glTF: CLAMP_TO_EDGE): so a quad has the silhouette of its relief. Beside the PARALLAX_... of material_io.h.
-#ifndef PETRICHOR_PARALLAX_ENDS_H
-#define PETRICHOR_PARALLAX_ENDS_H
+#ifndef PETRICHOR_PARALLAX_ENDS_IO_H
+#define PETRICHOR_PARALLAX_ENDS_IO_H
 
 #define PARALLAX_ENDS_U 8u
 #define PARALLAX_ENDS_V 16u
