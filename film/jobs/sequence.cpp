@@ -227,9 +227,9 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     out.fog.start_m = narrow(value_at(fog.start_m, time_s, 0.0));
     out.fog.end_m = narrow(value_at(fog.end_m, time_s, 100.0));
     out.fog.height_m = narrow(value_at(fog.height_m, time_s, 120.0));
-    out.fog.mist_per_m = fog.mode == gpu::FogMode::Off ? 0.0f
-                         : fog.mist_per_m.given()      ? narrow(value_at(fog.mist_per_m, time_s))
-                                                       : mist_per_m(out.weather);
+    out.fog.mist_per_m = fog.mist_per_m.given()        ? narrow(value_at(fog.mist_per_m, time_s))
+                         : fog.mode == gpu::FogMode::Off ? 0.0f
+                                                         : mist_per_m(out.weather);
 
     out.falling.shutter_s = narrow(value_at(camera.shutter_s, time_s, kShutter_s));
     out.falling.density = narrow(scenario.render.falling_density);
