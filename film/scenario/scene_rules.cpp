@@ -30,7 +30,7 @@ std::vector<Rule> scene_rules()
          }},
         {{"scene", "ground", "\"auto\"",
           "what the scene stands on: plane, level ground out to the horizon (material \"default "
-          "ground\"); none; or auto, a plane where the scene brings no ground"},
+          "ground\"); none; or auto, a plane where the scene brings no ground of a hundred metres and more"},
          [](Scenario& s, const TomlValue& v) {
              s.scene.ground = static_cast<StandsOn>(v.choice({"auto", "plane", "none"}));
          }},

@@ -24,6 +24,9 @@ constexpr int kCells = 64;         // a side, of the look from above
 constexpr int kHiddenCells = 192;  // likewise, of what hides ground
 constexpr int kHalvings = 3;       // of triangles that are hidden in part
 constexpr double kFilled = 0.8;    // of them, of a scene with ground
+// A plate narrower than this is a thing that lies somewhere: an eye at 1.7 m amid it sees its rim two degrees below the horizon and more,
+// and nothing between.
+constexpr float kLand_m = 100.0f;
 constexpr int kTexels = 1024;      // a side, of the asphalt
 constexpr int kSegments = 128;
 constexpr float kNextRing = 1.09f;  // the radius of a ring of vertices over that of the one inside
@@ -290,7 +293,7 @@ bool brings_ground(const scene::Scene& scene, const scene::Bounds& content)
 {
     const vec3 size = content.high - content.low;
     const float width = std::max(size.x, size.z);
-    if (!(width > 0.0f) || size.y > 0.5f * width) return false;
+    if (!(width >= kLand_m) || size.y > 0.5f * width) return false;
     const FromAbove seen(scene, content, kCells);
     const auto empty = std::count(seen.height_m.begin(), seen.height_m.end(), kNothing);
     const auto cells = static_cast<double>(seen.height_m.size());

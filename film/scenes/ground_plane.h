@@ -5,8 +5,9 @@
 
 namespace petrichor::film {
 
-/// Whether a scene stands on ground of its own: surfaces that face up fill at least four fifths of the
-/// rectangle around it, and it is at least twice as wide as high.
+/// Whether a scene stands on ground of its own that may end where it ends: it is a hundred metres wide or more, surfaces
+/// that face up fill at least four fifths of the rectangle around it, and it is at least twice as wide as high. The rim of a
+/// smaller plate (a yard, a plinth, a piece of land as a model) is seen, and nothing below the horizon beyond it.
 bool brings_ground(const scene::Scene& scene, const scene::Bounds& content);
 
 /// Lays level ground below a scene, out to the horizon, as a backdrop. Water and snow lie on it as on

@@ -34,9 +34,9 @@ scene::Scene scene_of(std::vector<scene::Primitive> primitives)
     return scene;
 }
 
-TEST(GroundPlane, ScenesWithAFloorBringTheirOwn)
+TEST(GroundPlane, WideScenesWithAFloorBringTheirOwn)
 {
-    const auto floor = box({-5, -0.1f, -5}, {5, 0, 5});
+    const auto floor = box({-60, -0.1f, -60}, {60, 0, 60});
     const auto house = box({-1, 0, -1}, {1, 3, 1});
     const scene::Scene town = scene_of({floor, house});
     EXPECT_TRUE(brings_ground(town, content_bounds(town)));
@@ -44,8 +44,29 @@ TEST(GroundPlane, ScenesWithAFloorBringTheirOwn)
     EXPECT_FALSE(brings_ground(alone, content_bounds(alone)));
     // Things beside each other with nothing between.
     const scene::Scene apart =
-        scene_of({box({-5, 0, -5}, {-3, 2, -3}), box({3, 0, 3}, {5, 2, 5})});
+        scene_of({box({-60, 0, -60}, {-30, 20, -30}), box({30, 0, 30}, {60, 20, 60})});
     EXPECT_FALSE(brings_ground(apart, content_bounds(apart)));
+}
+
+// Its rim would be an edge over nothing.
+TEST(GroundPlane, AYardIsLaidOnGroundAtItsUnderside)
+{
+    scene::Scene yard = scene_of({box({-5, -0.1f, -5}, {5, 0, 5}), box({-1, 0, -1}, {1, 3, 1})});
+    const scene::Bounds content = content_bounds(yard);
+    EXPECT_FALSE(brings_ground(yard, content));
+    add_ground(yard, content);
+    const scene::Primitive& disc = yard.meshes.back().primitives[0];
+    // Its underside is what faces up there when winding is not trusted: the ground goes on from below its rim, a few millimetres lower.
+    double beside = 0.0;
+    for (std::size_t k = 0; k + 2 < disc.indices.size(); k += 3) {
+        const glm::vec3 middle = (disc.positions[disc.indices[k]] + disc.positions[disc.indices[k + 1]] + disc.positions[disc.indices[k + 2]]) / 3.0f;
+        EXPECT_NEAR(middle.y, -0.1f, 0.01f);
+        const float out = std::max(std::abs(middle.x), std::abs(middle.z));
+        if (out > 5.2f && out < 20.0f)
+            beside += 0.5 * static_cast<double>(glm::length(glm::cross(disc.positions[disc.indices[k + 1]] - disc.positions[disc.indices[k]],
+                                                                       disc.positions[disc.indices[k + 2]] - disc.positions[disc.indices[k]])));
+    }
+    EXPECT_NEAR(beside, 40.0 * 40.0 - 10.4 * 10.4, 160.0) << "all around it";
 }
 
 TEST(GroundPlane, LiesBelowTheSceneAndLeavesItsBoundsAlone)
