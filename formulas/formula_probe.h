@@ -46,6 +46,7 @@
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/beads.h"
+#include "formulas/weather/deep_water.h"
 #include "formulas/weather/depth_quads.h"
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
@@ -67,7 +68,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 77;
+SHARED_CONST int kProbeKinds = 78;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -201,6 +202,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         state.snow = c.y;
         state.frost = c.z;
         state.snow_smoothness = 0.4f;
+        state.deeper_m = 0.3f * c.x * b.x;
+        state.way = water_way(b.y);
         WeatherMoment moment;
         moment.film_albedo = c.w;
         moment.film_smoothness = 0.5f * c.w;
@@ -668,6 +671,10 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                                          lost_along_grain(rough, c.w - 0.5f));
         const vec3 lit = shade_lobe(lobe, normalize(2.0f * n + probe_direction(c.x, c.y) - v));
         return vec4(lit.x, lit.y, lit.z, lost_at(facet_loss(0.05f + 0.95f * c.z), c.w) + lost_in_all(c.z));
+    }
+    if (kind == 77) {
+        const vec3 passes = water_passes(0.5f * a.x * water_way(a.y));
+        return vec4(passes.x, passes.y, passes.z, murk_hides(a.z, 0.2f * a.w, water_way(b.x)) + water_depth_of(water_depth_code(b.y)));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -7,6 +7,7 @@
 #define PETRICHOR_FORMULAS_WEATHER_APPLY_WEATHER_H
 
 #include "base/interop.h"
+#include "formulas/weather/deep_water.h"
 #include "formulas/weather/moment.h"
 #include "formulas/weather/surface_weather.h"
 
@@ -31,6 +32,8 @@ struct SurfaceState {
     float snow;   // sx
     float frost;
     float snow_smoothness;  // of the snow here
+    float deeper_m;  // how much deeper standing water is than where it closes over the ground (kClosedWater_m)
+    float way;       // of light through it and back, over its depth (water_way)
 };
 
 // A material in the specular workflow: metallic is converted before weather is applied.
@@ -104,6 +107,20 @@ SHARED_FN WeatheredMaterial apply_water(WeatheredMaterial dry, vec2 film, float 
     wet.smoothness = mix(smoothed, 0.9f, t2);
     wet.specular = mix(dry.specular, splat3(0.02f), t2 * (1.0f - metalness));
     return wet;
+}
+
+// Deep water over what it wets: the murk of a material grows with its depth, and rain water is not quite clear.
+SHARED_FN WeatheredMaterial apply_deep_water(WeatheredMaterial wet, vec4 water_color, float deeper_m, float way)
+{
+    const float hides = murk_hides(water_color.w, deeper_m, way);
+    const vec3 passes = water_passes(deeper_m * way);
+    WeatheredMaterial deep = wet;
+    deep.albedo = mix(wet.albedo, vec3(water_color.x, water_color.y, water_color.z), hides);
+    deep.albedo = mix(bottomless_water(), deep.albedo, passes);
+    const float seen = (1.0f - hides) * passes.y;
+    deep.occlusion = mix(1.0f, wet.occlusion, seen);
+    deep.emission_scale = wet.emission_scale * seen;
+    return deep;
 }
 
 // cover          sx
@@ -205,6 +222,7 @@ SHARED_FN WeatheredMaterial apply_weather(DryMaterial dry, SurfaceState state, W
     m = apply_water(m, vec2(max(moment.film_albedo * state.film, soaked),
                             mix(moment.film_smoothness, 0.65f, pouring) * state.film),
                     state.water, dry.water_color, dry.porosity);
+    m = apply_deep_water(m, dry.water_color, state.deeper_m, state.way);
     m = apply_snow(m, state.snow, look.snow_color * melting_snow(state.snow, moment.melt_exp), look.snow_specular,
                    melting_smoothness(state.snow_smoothness, state.snow, moment.melt_exp), dry.snow_opacity);
     const float closed = closed_water(state);

@@ -101,6 +101,8 @@ SHARED_FN SurfaceState open_surface()
     s.snow = 0.0f;
     s.frost = 0.0f;
     s.snow_smoothness = 0.39f;
+    s.deeper_m = 0.0f;
+    s.way = kMeanWaterWay;
     return s;
 }
 

@@ -32,6 +32,9 @@ struct WaterCover {
     float deep;      // ay: stronger where it stands deep; drives ripples and refraction
 };
 
+// How far its level stands over the relief, in heights of it, where a puddle is whole.
+SHARED_FN float puddle_closes(float blurred) { return 0.4f + 1.5f * blurred; }
+
 // flood          (cracks, puddles) level: published level * influence + constant; may exceed 1
 // height         0 low .. 1 high, of the surface relief
 // puddle_mask    1 puddles may stand, 0 never

@@ -3,6 +3,7 @@
 #define PETRICHOR_GBUFFER_GLSL
 
 #include "formulas/codec/octahedral.h"
+#include "formulas/weather/deep_water.h"
 #include "gpu/frame/baked_shadow.glsl"
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/gbuffer_table_io.h"
@@ -19,6 +20,7 @@ struct GBufferTexel {
     float tangent; // of anisotropic materials: tangent_code (formulas/light/layers.h)
     uint model;    // lighting model, 0..255; behind the models: a model and layers
     vec4 weather;  // film, water, snow, frost
+    float deeper_m;  // of standing water, more than where it closes
     uint material;          // its number in the scene, 0..65535; 0 where no weather is kept
     float snow_smoothness;  // of the snow here
     float first_share;      // of the first of two sets of textures; kept with FRAME_TWO_SETS
@@ -41,6 +43,15 @@ vec2 one_as_two(float both)
 {
     const uint code = uint(both * 65535.0 + 0.5);
     return vec2(code >> 8, code & 255u) / 255.0;
+}
+
+// Where water closes over a surface its film says nothing more: that place holds how deep the water is.
+bool water_closes(float water) { return water > 254.5 / 255.0; }
+vec4 kept_weather(GBufferTexel texel)
+{
+    vec4 kept = texel.weather;
+    if (water_closes(kept.y)) kept.x = water_depth_code(texel.deeper_m);
+    return kept;
 }
 
 // What the target of the weather holds: film, water, snow and frost, and the number of the material.
@@ -87,7 +98,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel, uint flags)
     const float snow = (flags & FRAME_TWO_SETS) != 0u
                            ? two_in_one(texel.snow_smoothness, texel.first_share)
                            : texel.snow_smoothness;
-    code.weather = vec4(float(texel.material) / 65535.0, snow, stores_code(texel.weather));
+    code.weather = vec4(float(texel.material) / 65535.0, snow, stores_code(kept_weather(texel)));
     code.emission = vec4(texel.emission, lamp_mask_code(texel.lamp_mask, texel.body));
     code.baked = vec4(texel.baked, baked_shadow_code(texel.baked_shadow, texel.baked_sky));
     return code;
@@ -108,6 +119,11 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint kept, uint flags)
     texel.tangent = code.payload.a;
     const bool wet = kept == WEATHER_WET;
     texel.weather = wet ? vec4(code.weather.xy, 0.0, 0.0) : stores_of(code.weather);
+    texel.deeper_m = 0.0;
+    if (water_closes(texel.weather.y)) {
+        texel.deeper_m = water_depth_of(texel.weather.x);
+        texel.weather.x = 1.0;
+    }
     texel.material = material_of(code.weather, kept);
     texel.snow_smoothness = wet ? 0.0 : code.weather.y;
     texel.first_share = 1.0;

@@ -28,6 +28,7 @@ using namespace testing_program;
 constexpr const char* kScenario = R"(
 [scene]
 file = "scene.glb"
+ground = "none"
 [sun]
 elevation_degrees = [[0, 40], [6, 10]]
 [weather]
@@ -297,6 +298,7 @@ TEST_F(Render, ResumeSaysWhatChanged)
         "time,air_temp_c,precip_mm,wind_m_s\n2020-01-01T00:00,3,1,2\n2020-01-01T01:00,3,1,2\n";
     const std::string scenario = R"([scene]
 file = "scene.glb"
+ground = "none"
 [weather]
 file = "w.csv"
 latitude_degrees = 50

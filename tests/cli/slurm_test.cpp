@@ -20,6 +20,7 @@ using testing::HasSubstr;
 constexpr const char* kScenario = R"(
 [scene]
 file = "scene.glb"
+ground = "none"
 [weather]
 keys = [{ time_s = 0, temperature_c = 10, rainfall = 1.0 }, { time_s = 6, temperature_c = -10 }]
 [output]

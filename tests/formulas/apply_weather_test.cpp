@@ -51,7 +51,7 @@ TEST(ApplyWater, SettsDarkenAsMuchAsIsMeasured)
         dry.porosity = porosity;
         WeatherMoment moment{};
         moment.film_albedo = 0.85f;
-        const SurfaceState state{1.0f, 0.0f, 0.0f, 0.0f, 0.4f};
+        const SurfaceState state{1.0f, 0.0f, 0.0f, 0.0f, 0.4f, 0.0f, kMeanWaterWay};
         return apply_weather(dry, state, moment, {}).albedo.x / albedo;
     };
     // Angstrom 1925: sand .18 to .09, mould .14 to .08.

@@ -29,7 +29,7 @@ DryMaterial stone(float metallic = 0.0f)
     return dry;
 }
 
-WaterFilm film_of(float wetness, float rain, SurfaceState state = {1.0f, 0.0f, 0.0f, 0.0f, 0.4f})
+WaterFilm film_of(float wetness, float rain, SurfaceState state = {1.0f, 0.0f, 0.0f, 0.0f, 0.4f, 0.0f, kMeanWaterWay})
 {
     WeatherMoment moment{};
     moment.film_smoothness = wetness;

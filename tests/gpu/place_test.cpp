@@ -306,6 +306,40 @@ TEST_F(PlaceTest, PondsAreFlatAndAsDeepAsTheirLevel)
     EXPECT_EQ(aov(renderer->render(from_above(low)), "water", 56, 32), 0.0f);
 }
 
+// Its colour is that of the water the more the deeper it is: light stones are seen through two centimetres, hardly through twenty. Truth
+// of the pixel (film, cover) does not tell how its depth is kept.
+TEST_F(PlaceTest, ADeepPondHasAColourOfItsOwn)
+{
+    load_floor();
+    shape->basin_corner_m = {-2.0f, -2.0f};
+    shape->basin_cell_m = 1.0f;
+    shape->basin_width = shape->basin_depth = 4;
+    shape->labels.assign(16, 1);
+    const auto seen = [&](SurfacePath path, float level_m, float grey) {
+        floor.materials[0].base_color = {grey, grey, grey, 1.0f};
+        renderer->load(floor, {});
+        auto place = dry();
+        place->levels_m = {0.0f, level_m};
+        Frame frame = from_above(place);
+        frame.settings.surface_path = path;
+        frame.sky.sun_illuminance = 0.0f;
+        const RenderResult r = renderer->render(frame);
+        EXPECT_EQ(aov(r, "water", 20, 44), 1.0f);
+        EXPECT_EQ(aov(r, "film", 20, 44), 1.0f);
+        return pixel(r, 20, 44);
+    };
+    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+        const auto contrast = [&](float level_m) {
+            const glm::vec3 dark = seen(path, level_m, 0.05f), light = seen(path, level_m, 0.8f);
+            return (light - dark) / dark;
+        };
+        const glm::vec3 shallow = contrast(0.02f), deep = contrast(0.2f);
+        EXPECT_GT(shallow.g, 1.0f);
+        EXPECT_LT(deep.g, 0.08f * shallow.g);
+        EXPECT_LT(deep.b / shallow.b, 0.6f * deep.r / shallow.r) << "blue goes first";
+    }
+}
+
 // Each pixel has the weather of the very patch that the C++ text of the lookup names.
 TEST_F(PlaceTest, PixelsFindThePatchThatTheirFormulaNames)
 {

@@ -107,7 +107,7 @@ void main()
     out_normal = vec4(data.texel.base_normal, 1.0) * covers.y;
     out_matter =
         vec4(data.texel.roughness, data.texel.metallic, data.texel.occlusion, 1.0) * covers.z;
-    out_weather = vec4(data.texel.weather.xyz, 1.0) * covers.w;
+    out_weather = vec4(kept_weather(data.texel).xyz, 1.0) * covers.w;
     out_cover = vec4(data.texel.cover_normal, 1.0) * covers.w;
     out_emission = vec4(data.emission, 1.0) * covers.x;
 }

@@ -172,6 +172,8 @@ void main()
             state.snow = g.weather.z;
             state.frost = g.weather.w;
             state.snow_smoothness = g.snow_smoothness;
+            state.deeper_m = GAMMA == 0u ? g.deeper_m : 0.0;  // Lux knows no depth
+            state.way = water_way(clamp(v.y, 0.0, 1.0));
             const int look = int(g.material) * MATERIAL_LOOK_TEXELS;
             dry.water_color = texelFetch(material_looks, look);
             if ((frame.flags & FRAME_TWO_SETS) != 0u) {

@@ -84,6 +84,7 @@ shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMom
         std::sqrt(open) * shared::saturate(up + 1.0f - m.water_slope_damp) * film_of(m);
     state.frost = mean_frost(w.frost * open * shared::saturate(up * 0.6f + 0.5f)) * (1.0f - state.water);
     state.snow_smoothness = 0.3f;
+    state.way = shared::kMeanWaterWay;
     return state;
 }
 
@@ -114,6 +115,7 @@ shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::Weat
     state.film = shown.x * film_of(m);
     state.frost = mean_frost(frost) * (1.0f - state.water);
     state.snow_smoothness = 0.3f;
+    state.way = shared::kMeanWaterWay;
     return state;
 }
 

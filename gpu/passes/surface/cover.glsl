@@ -18,6 +18,7 @@ struct Cover {
     float snow_smoothness;
     vec3 normal;      // of the water or snow
     vec2 refraction;  // shift of the texture coordinates below the water
+    float deeper_m;   // of the water, more than where it closes
     float slides;     // 1: the slope of the bumps is still to take its share of the film (shed_film)
 };
 
@@ -41,6 +42,7 @@ Cover no_cover(SurfaceInput at)
     c.snow_smoothness = 0.0;
     c.normal = at.normal;
     c.refraction = vec2(0.0);
+    c.deeper_m = 0.0;
     c.slides = 0.0;
     return c;
 }
@@ -100,6 +102,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     water.depth_m = 0.0;
     water.below = 0.0;
     water.stands_m = 0.0;
+    water.deeper_m = 0.0;
     if (WATER != 0u) water = water_on(at, here);
     if (!is_steep() && max(here.pond_m, water.depth_m) > 0.0) {
         // A pond drowns what stands in it by and by.
@@ -111,6 +114,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
             pond = marsh_cover(here.pond_m, water.stands_m + relief_m);
         }
         water.anywhere = max(water.anywhere, max(water.below, pond.anywhere));
+        water.deeper_m = max(water.deeper_m, max(water.depth_m, here.pond_m - water.stands_m) - kClosedWater_m);
         water.deep = max(water.deep, max(smooth_edge(0.0005, 0.006, water.depth_m), pond.deep));
     }
     const float soaked = water.anywhere;
@@ -165,6 +169,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     c.normal = normalize(bent.xyz * fade + still * max(mix(1.0, bent.w, fade), 0.05));
 
     c.water = water.anywhere;
+    c.deeper_m = water.deeper_m;
     c.snow = snow.snow;
     if (SNOW != 0u) {
         c.water = melt_wetness(water.anywhere, snow.melt, frame.weather.melt_exp);

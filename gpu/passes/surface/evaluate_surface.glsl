@@ -218,6 +218,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
         data.shares.second_share = lobe.share;
     }
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
+    data.texel.deeper_m = cover.deeper_m;
     data.texel.material = at.material_id;
     data.texel.snow_smoothness = cover.snow_smoothness;
     data.texel.first_share = at.shares.x;

@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_WATER_GLSL
 #define PETRICHOR_SURFACE_WATER_GLSL
 
+#include "formulas/weather/deep_water.h"
 #include "formulas/weather/ground_relief.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
@@ -13,6 +14,7 @@ struct StandingWater {
     float runs;  // 0..1: what falls on a slope and leaves it
     float depth_m;  // in the relief below a patch
     float below;    // share of the relief below that water
+    float deeper_m;  // than where it closes over the ground
     float stands_m;  // how high the relief stands in the shallows of a hollow
 };
 
@@ -38,6 +40,7 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
     water.depth_m = 0.0;
     water.below = 0.0;
     water.stands_m = 0.0;
+    water.deeper_m = 0.0;
     if (is_steep()) return water;
     float height = material.default_height;
     float blurred = 0.0;
@@ -63,6 +66,8 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
     const float unit_m = mapped && material.height_scale_m > 0.0 ? material.height_scale_m : kGroundReliefUnit_m;
     // Half of it: the mesh is the mean of its ground.
     water.stands_m = 0.5 * unit_m * (mapped ? height : height - material.default_height);
+    const float over = flood.y * saturate(at.normal.y + 1.0 - material.water_slope_damp) - (1.0 - puddle_mask) - height;
+    water.deeper_m = any * max(over - puddle_closes(blurred), 0.0) * unit_m;
     if (PLACE != 0u && here.volume) {
         // The places of a pixel stand within `wider_m` of their mean. Its edge is as wide as a drop is high.
         const float over_m = (here.level - height) * unit_m * levelness;

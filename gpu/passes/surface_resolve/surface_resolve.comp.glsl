@@ -209,6 +209,6 @@ void main()
     if (when_ && (SURFACE_PAYLOAD != 0u || location_ != GBUFFER_PAYLOAD)) imageStore(out_##name, pixel, code.name);
     GBUFFER_TABLE(ROW)
 #undef ROW
-    if (SURFACE_WEATHER == WEATHER_WET) imageStore(out_wet, pixel, wet_code(data.texel.weather, data.texel.material));
+    if (SURFACE_WEATHER == WEATHER_WET) imageStore(out_wet, pixel, wet_code(kept_weather(data.texel), data.texel.material));
     if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares, has_layer(LAYER_TEXTURE_SECOND_LOBE)));
 }
