@@ -149,15 +149,15 @@ TEST(SnowHistory, NewSnowFillsWhatWasTrodden)
 
 class NodeTracksPicture : public gpu::GpuTest {
 protected:
-    static Sequence sequence_of(const Workplace& place, const std::string& more = "")
+    static Sequence sequence_of(const Workplace& place)
     {
         const auto glb = yard().glb();
         std::ofstream(place / "yard.glb", std::ios::binary)
             .write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
         Scenario scenario = parse_scenario("[scene]\nfile = \"yard.glb\"\nanimation_loop = false\n"
                                            "[ground]\ntracks = [{ node = \"cart\" }]\n"
-                                           "[weather]\nkeys = [" + more +
-                                           "{ time_s = 2, temperature_c = -6, rainfall = 0.0, script_controlled = 0, snow = 0.95, "
+                                           "[weather]\nkeys = ["
+                                           "{ time_s = 0, temperature_c = -6, rainfall = 0.0, script_controlled = 0, snow = 0.95, "
                                            "water_to_snow = 1.0 }]\n"
                                            "[camera]\nposition_m = [0, 5, 4]\nlook_at_m = [0, 0, 0]\n"
                                            "[render]\nindirect = \"ambient\"\n"
