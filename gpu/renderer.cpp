@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "gpu/build_frame.h"
 #include "gpu/frame/metering.h"
+#include "gpu/snow/frame_tracks.h"
 #include "gpu/snow/snow_body.h"
 #include "gpu/surface_path.h"
 #include "gpu/upload/draw.h"
@@ -380,6 +381,7 @@ struct Renderer::Impl {
     std::unique_ptr<GpuScene> scene;
     std::unique_ptr<OwnMoves> own_moves;  // null: nothing is moved by them
     std::unique_ptr<SnowBody> snow;
+    FrameTracks tracks;
     std::uint32_t falls_before = 0;
     bool own_lighting = false;
     std::string graph_text;
@@ -446,6 +448,11 @@ void Renderer::set_drips(std::shared_ptr<const std::vector<scene::DripPoint>> dr
     impl_->drips = std::move(drips);
 }
 
+void Renderer::set_tracks(std::shared_ptr<const TrackSource> source)
+{
+    impl_->tracks.set(std::move(source));
+}
+
 void Renderer::set_environment(const EnvironmentMap& map)
 {
     impl_->environment = nullptr;
@@ -487,7 +494,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, Targ
         depth_maps.forget();
         lamp_shadows.forget();
     }
-    if (snow && snow->lay(frame)) {
+    if (tracks.tread(frame.settings.time_s)) surface_maps.set_tracks(device, *tracks.map());
+    if (snow && snow->lay(frame, tracks)) {
         scene->lay(device, snow->laid());
         depth_maps.shadow_valid.fill(false);
     }

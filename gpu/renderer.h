@@ -73,6 +73,10 @@ public:
     /// Where drops come off edges in frames that are wet (scene/drips); null, and load(): nowhere.
     void set_drips(std::shared_ptr<const std::vector<scene::DripPoint>> drips);
 
+    /// Tracks that come to be while a film goes on, in place of those of the weather's maps, which have all of theirs
+    /// over it (TrackMap::over_time). Not empty.
+    void set_tracks(std::shared_ptr<const TrackSource> source);
+
     RenderResult render(const Frame& frame);
 
     /// A window of the frame's picture, as large as the tile. Where nothing reaches it from beyond the window its pixels

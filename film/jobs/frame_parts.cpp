@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "film/jobs/exposure.h"
+#include "film/jobs/film_tracks.h"
 #include "film/jobs/sequence.h"
 #include "film/tiles/tile_plan.h"
 
@@ -254,6 +255,8 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
                 hasher.add_numbers(std::span<const float>(&eye[0], 3));
         });
     }
+    if (const std::string tracks = tracks_at(sequence, what.job.variant, frame.settings.time_s); !tracks.empty())
+        parts["tracks"] = tracks;
     static_assert(std::is_trivially_copyable_v<shared::WeatherLook> &&
                       sizeof(shared::WeatherLook) % sizeof(float) == 0,
                   "all floats: hashed as one run");

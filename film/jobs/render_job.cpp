@@ -20,6 +20,7 @@
 #include "film/frames/frames_jsonl.h"
 #include "film/frames/kept.h"
 #include "film/jobs/exposure.h"
+#include "film/jobs/film_tracks.h"
 #include "film/jobs/scene_places.h"
 #include "film/jobs/scene_source.h"
 #include "film/scenario/material_keys.h"
@@ -30,7 +31,6 @@
 #include "film/scenes/scene_probes.h"
 #include "film/scenes/scene_textures.h"
 #include "film/scenes/snow_scene.h"
-#include "film/scenes/snow_tracks.h"
 #include "film/scenes/transport.h"
 #include "film/scenes/weather_textures.h"
 #include "film/tiles/tiled_picture.h"
@@ -251,6 +251,9 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
          sequence_renderers(sequence, request, pending.size(), report)) {
         workers.emplace_back(std::move(renderer));
     }
+    std::map<std::string, std::shared_ptr<const gpu::TrackSource>> tracks_of;
+    for (const SequenceVariant& variant : sequence.variants)
+        if (auto tracks = track_source(sequence, variant.name)) tracks_of[variant.name] = std::move(tracks);
     const int count = static_cast<int>(pending.size());
     if (request.watcher) request.watcher->begin(count, output, workers.front().renderer.device());
     {
@@ -271,6 +274,8 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
                 set_environment_of(worker.renderer, sequence, one.job);
                 worker.environment = one.frame.environment;
             }
+            if (const auto tracks = tracks_of.find(one.job.variant); tracks != tracks_of.end())
+                worker.renderer.set_tracks(tracks->second);
             worker.facts.exposure_by = meter.expose(worker.renderer, one.job, worker.what.frame);
             if (plan.count() > 1) {
                 worker.result = {};
@@ -378,7 +383,7 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
         plan.window_width(), plan.window_height(), request.memory_budget);
     gpu::WeatherMaps maps =
         read_weather_textures(scenario.render.weather_textures, scenario.folder);
-    maps.tracks = draw_tracks(scenario.ground.tracks);
+    maps.tracks = all_tracks(sequence);
     const gpu::RendererOptions device{.device = request.device,
                                       .validation = request.validation,
                                       .passes_apart = request.passes_apart,
@@ -437,10 +442,12 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
     }
     const auto textures = prepare_textures(sequence.scene, options);
     report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
+    const auto tracks = track_source(sequence, sequence.variants.front().name);
     for (gpu::Renderer& renderer : renderers) {
         renderer.load(sequence.scene, textures, snow);
         renderer.set_patches(patches);
         renderer.set_drips(drips);
+        if (tracks) renderer.set_tracks(tracks);
     }
     return renderers;
 }

@@ -188,6 +188,16 @@ void load_sequence_scene(Sequence& sequence, int threads)
     if (!scenario.ground.tracks.empty()) content.add(tracks_fingerprint(scenario.ground.tracks));
     sequence.eyes_m = eyes_of(sequence);
     add_displacement(sequence, content);
+    const auto& tracks = scenario.ground.tracks;
+    if (std::any_of(tracks.begin(), tracks.end(), [](const ScenarioTrack& track) { return !track.nodes.empty(); })) {
+        const AnimationClock clock{scenario.scene.animation_start_s, scenario.scene.animation_speed, scenario.output.fps,
+                                   scenario.output.frames};
+        sequence.node_ways = node_ways(tracks, sequence.scene, clock, sequence.notes);
+        for (const NodeWay& one : sequence.node_ways) {
+            content.add(ways_fingerprint({one.way}));
+            content.add_numbers(std::span<const double>(one.at_s));
+        }
+    }
     sequence.content = content.text();
     sequence.weather_textures =
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);

@@ -12,6 +12,8 @@
 #include "film/jobs/camera.h"
 #include "film/jobs/weather_source.h"
 #include "film/scenario/scenario.h"
+#include "film/scenes/node_tracks.h"
+#include "film/weather/snow_history.h"
 #include "gpu/renderer.h"
 #include "scene/scene.h"
 
@@ -43,6 +45,7 @@ struct SequenceVariant {
     WeatherSource weather;
     std::string environment = {};  ///< fingerprint of its sky's picture; "": none
     AirTravel air = {};            ///< of the weather's wind, about true north
+    SnowHistory snow = {};         ///< of the weather's snow, over the seconds of the film
 };
 
 /// A scene and a scenario that together say what every frame shows.
@@ -60,6 +63,7 @@ struct Sequence {
     std::size_t triangles = 0;     ///< of all instances
     std::vector<glm::vec3> eyes_m = {};  ///< eyes_of(), once the scene is loaded
     std::map<std::string, gpu::SunCookie> sun_cookies = {};  ///< by the files that conditions name
+    std::vector<NodeWay> node_ways = {};  ///< in snow, over the whole film
     std::vector<std::string> notes = {};  ///< about the scene: which of its animations play
 };
 

@@ -48,7 +48,9 @@ std::vector<Rule> ground_rules()
           "[{ kind = \"tyre\", points_m = [[-4.0, 0.0, 1.0], [4.0, 0.0, 1.0]] }]",
           "what went through the snow: kind \"tyre\" or \"feet\", points_m of the way (bent "
           "smoothly), "
-          "width_m of one, gauge_m between two tyres (0: one alone), depth 0 to 1"},
+          "width_m of one, gauge_m between two tyres (0: one alone), depth 0 to 1; node = \"cart\" (a "
+          "name, wildcards, or a list) in place of points_m: where that node of the file has gone near "
+          "the ground by then (docs/places.md)"},
          [](Scenario& s, const TomlValue& v) { s.ground.tracks = read_tracks(v); }},
 
 #define ROW(name, on, meaning)                                  \

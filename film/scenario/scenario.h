@@ -327,9 +327,11 @@ struct ScenarioView {
 /// What has gone through the snow: a line of tracks.
 struct ScenarioTrack {
     bool tyre = true;                  ///< false: feet
-    std::vector<glm::dvec3> points_m;  ///< of the way, at least 2
+    std::vector<glm::dvec3> points_m;  ///< of the way, at least 2; or none, and ..
+    std::vector<std::string> nodes;    ///< .. globs of nodes of the scene, which leave it as they go
+    std::string place;                 ///< "file:line", for messages
     double width_m = 0.0;              ///< of a tyre or a foot; 0: 0.22, 0.10
-    double gauge_m = 1.6;              ///< between two tyres; 0: one alone
+    std::optional<double> gauge_m;     ///< between two tyres; 0: one alone; not given: 1.6, of a node by its width
     double depth = 1.0;                ///< 0 nothing .. 1 as deep as the snow lets them
 };
 

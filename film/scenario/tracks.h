@@ -9,7 +9,7 @@
 namespace petrichor::film {
 
 /// Reads `tracks` of [ground]. Throws Error for unknown keys, values out of range and ways that
-/// lead nowhere: less than two different points.
+/// lead nowhere: less than two different points, and no node that goes.
 std::vector<ScenarioTrack> read_tracks(const TomlValue& value);
 
 }  // namespace petrichor::film

@@ -15,19 +15,6 @@
 namespace petrichor::film {
 namespace {
 
-// As trodden_at() of gpu/passes/surface/tracks.glsl, of the nearest texel.
-float pressed_at(const gpu::TrackMap& tracks, const glm::vec3& at)
-{
-    if (!(at.y >= tracks.low_m && at.y <= tracks.high_m)) return 0.0f;
-    const glm::vec2 texel = (glm::vec2(at.x, at.z) - tracks.corner_m) / tracks.texel_m;
-    if (!(texel.x >= 0.0f && texel.y >= 0.0f && texel.x < static_cast<float>(tracks.width) &&
-          texel.y < static_cast<float>(tracks.height)))
-        return 0.0f;
-    const std::size_t index = static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(tracks.width) +
-                              static_cast<std::size_t>(texel.x);
-    return static_cast<float>(tracks.rgba[4 * index]) / 255.0f;
-}
-
 constexpr const char* kKind = "snow_caps";
 
 std::string key_of(const scene::Scene& scene, const scene::Triangles& triangles,
@@ -37,6 +24,7 @@ std::string key_of(const scene::Scene& scene, const scene::Triangles& triangles,
     hasher.add(source_fingerprint());
     hasher.add(scene::snow_caps_fingerprint(what_rays_see(scene, triangles), scene, options));
     for (const int v : {tracks.width, tracks.height}) hasher.add(v);
+    if (tracks.over_time) hasher.add("over time");
     for (const float v : {tracks.corner_m.x, tracks.corner_m.y, tracks.texel_m, tracks.low_m, tracks.high_m})
         hasher.add(v);
     hasher.add_bytes(std::as_bytes(std::span(tracks.rgba)));
@@ -55,7 +43,8 @@ std::shared_ptr<const scene::SnowCaps> prepare_snow(const scene::Scene& scene,
     options.eyes_m = eyes_m;
     options.stop = stop;
     if (tracks.width > 0)
-        options.pressed = [&tracks](const glm::vec3& at) { return pressed_at(tracks, at); };
+        options.pressed = [&tracks](const glm::vec3& at) { return gpu::pressed_at(tracks, at); };
+    options.presses = !tracks.over_time;
     std::string key;
     std::optional<scene::SnowCaps> found;
     const scene::Triangles plain(scene, {});

@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_FRAME_WEATHER_MAPS_H
 
 #include <cstddef>
+#include <functional>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -22,9 +23,26 @@ struct TrackMap {
     float texel_m = 0.01f;
     float low_m = 0.0f;           ///< only what lies between these heights of the world
     float high_m = 0.0f;
+    bool over_time = false;       ///< of all of a film; what of it is there in a frame a TrackSource says
     /// R: share of the depth that is pressed away, G and B: 0.5 + a quarter of the slope along x and z.
     std::vector<std::byte> rgba;
 };
+
+/// How far snow is pressed at a place, 0..1: as trodden_at() of gpu/passes/surface/tracks.glsl, of the nearest texel.
+inline float pressed_at(const TrackMap& tracks, const glm::vec3& at)
+{
+    if (!(at.y >= tracks.low_m && at.y <= tracks.high_m)) return 0.0f;
+    const glm::vec2 texel = (glm::vec2(at.x, at.z) - tracks.corner_m) / tracks.texel_m;
+    if (!(texel.x >= 0.0f && texel.y >= 0.0f && texel.x < static_cast<float>(tracks.width) &&
+          texel.y < static_cast<float>(tracks.height)))
+        return 0.0f;
+    const std::size_t index = static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(tracks.width) +
+                              static_cast<std::size_t>(texel.x);
+    return static_cast<float>(tracks.rgba[4 * index]) / 255.0f;
+}
+
+/// Tracks as they are at a second of the film (FrameSettings::time_s): as large as WeatherMaps::tracks and where that is.
+using TrackSource = std::function<TrackMap(double film_s)>;
 
 /// Maps that weather is drawn with, instead of those of formulas/weather/weather_maps.h.
 struct WeatherMaps {

@@ -105,7 +105,7 @@ void SnowBody::list_corners()
     }
 }
 
-std::vector<float> SnowBody::depths(const Frame& frame)
+std::vector<float> SnowBody::depths(const Frame& frame, const FrameTracks& tracks)
 {
     const shared::WeatherMoment& w = frame.weather;
     const bool placed = frame.place && frame.place->shape->grid.levels > 0;
@@ -116,6 +116,9 @@ std::vector<float> SnowBody::depths(const Frame& frame)
         patches_.find(frame.place->shape, places);
     }
     std::vector<float> depths = placed ? patches_.depths_m(*frame.place, open_m) : std::vector<float>(caps_->points.size(), open_m);
+    if (tracks.map() != nullptr) {
+        for (std::size_t i = 0; i < depths.size(); ++i) depths[i] *= 1.0f - pressed_at(*tracks.map(), caps_->points[i].base_m);
+    }
     // Most scenes lie above the line by far, and it runs up and down by no more than this.
     const float whole_m = w.snow_start_height_m + w.snow_height_blend_m * (1.0f + 2.0f * std::max(frame.look.snow_line_ragged, 0.0f));
     if (lowest_m_ > whole_m) return depths;
@@ -126,7 +129,7 @@ std::vector<float> SnowBody::depths(const Frame& frame)
     return depths;
 }
 
-bool SnowBody::lay(const Frame& frame)
+bool SnowBody::lay(const Frame& frame, const FrameTracks& tracks)
 {
     const shared::WeatherMoment& w = frame.weather;
     const bool placed = frame.place && frame.place->shape->grid.levels > 0;
@@ -138,13 +141,14 @@ bool SnowBody::lay(const Frame& frame)
         key.blend_m = w.snow_height_blend_m;
         key.ragged = frame.look.snow_line_ragged;
         key.place = placed ? frame.place : nullptr;
+        key.tracks = tracks.number();
     }
     if (laid_ == key) return false;
     const bool lay_before = lies_;
     laid_ = key;
     lies_ = false;
     if (!key.wanted) return lay_before;
-    const std::vector<float> depth_m = depths(frame);
+    const std::vector<float> depth_m = depths(frame, tracks);
     choose_levels(depth_m);
     const scene::SnowShape shape = scene::snow_shape(*caps_, depth_m, drawn_);
     lies_ = shape.thickest_m > kThin_m;

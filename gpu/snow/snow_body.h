@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gpu/frame/frame.h"
+#include "gpu/snow/frame_tracks.h"
 #include "gpu/snow/patch_depths.h"
 #include "gpu/upload/gpu_scene.h"
 #include "scene/snow/snow_caps.h"
@@ -28,7 +29,8 @@ public:
     const Overlay& overlay() const { return overlay_; }
 
     /// Shapes the snow of a frame, by its depth alone; true when it is another than before.
-    bool lay(const Frame& frame);
+    /// `tracks` press it down where the caps have not been pressed already.
+    bool lay(const Frame& frame, const FrameTracks& tracks = {});
     /// Empty: too thin to have a body. Triangles are fewer where it is deep (scene::SnowLevels), and none where it is not. Of the scene
     /// is covered what lies below it: the same triangles of the caps are seen from above, and throw its shadows.
     LaidOverlay laid() const;
@@ -42,9 +44,10 @@ private:
         float depth_m = 0.0f, start_m = 0.0f, blend_m = 0.0f, ragged = 0.0f;
         bool wanted = false;
         std::shared_ptr<const PlaceWeather> place;
+        std::uint64_t tracks = 0;
         bool operator==(const Key&) const = default;
     };
-    std::vector<float> depths(const Frame& frame);
+    std::vector<float> depths(const Frame& frame, const FrameTracks& tracks);
 
     std::shared_ptr<const scene::SnowCaps> caps_;
     Overlay overlay_;

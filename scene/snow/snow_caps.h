@@ -23,6 +23,7 @@ struct SnowCapOptions {
     float reach_m = 50.0f;          ///< no caps beyond this from the nearest eye
     /// Share of the depth that is trodden away at a place; none: nowhere.
     std::function<float(const glm::vec3&)> pressed = {};
+    bool presses = true;                   ///< false: what is trodden is cut as fine, and lies as high as all around
     std::size_t most_triangles = 120'000;  ///< more than what faces up has by itself
     StopRequest stop = {};                 ///< asked several times a second
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/error.h"
 #include "gpu/passes/surface_maps/surface_maps_io.h"
 
 namespace petrichor::gpu {
@@ -99,6 +100,20 @@ std::vector<std::byte> halved(const std::vector<std::byte>& texels, int width, i
     return half;
 }
 
+std::vector<std::vector<std::byte>> track_levels(const TrackMap& map)
+{
+    if (map.width == 0) return {untouched(1)};
+    std::vector<std::vector<std::byte>> levels{map.rgba};
+    int width = map.width;
+    int height = map.height;
+    while (levels.size() < 6) {
+        levels.push_back(halved(levels.back(), width, height));
+        width /= 2;
+        height /= 2;
+    }
+    return levels;
+}
+
 }  // namespace
 
 SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size,
@@ -123,21 +138,20 @@ SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size,
     if (water_given) upload_image(device, *flow, {given.water.rgba});
 }
 
+void SurfaceMaps::set_tracks(const Device& device, const TrackMap& given)
+{
+    if (given.width != track_area.width || given.height != track_area.height || given.width == 0)
+        throw Error("tracks: a map of another size than that of the whole film", "Draw all of them over one area.");
+    upload_image(device, *tracks, track_levels(given));
+}
+
 void SurfaceMaps::make_tracks(const Device& device, MemoryArena& arena, const TrackMap& given)
 {
     clamped = make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                            VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
     track_area = given;
     track_area.rgba.clear();
-    const bool any = given.width > 0;
-    std::vector<std::vector<std::byte>> levels{any ? given.rgba : untouched(1)};
-    int width = std::max(given.width, 1);
-    int height = std::max(given.height, 1);
-    while (any && levels.size() < 6) {
-        levels.push_back(halved(levels.back(), width, height));
-        width /= 2;
-        height /= 2;
-    }
+    const auto levels = track_levels(given);
     tracks = arena.image({.name = "tracks",
                           .width = std::max(given.width, 1),
                           .height = std::max(given.height, 1),

@@ -10,6 +10,8 @@ namespace petrichor::gpu {
 struct SurfaceMaps {
     /// ripple_size: texels a side of the rings where their drops are drawn, a power of two.
     SurfaceMaps(const Device& device, MemoryArena& arena, int ripple_size, const WeatherMaps& given);
+    /// Other tracks in the same place. Throws Error for a map of another size.
+    void set_tracks(const Device& device, const TrackMap& given);
 
     std::unique_ptr<GpuImage> ripple_source;  ///< drops: envelope, direction, time offset
     std::unique_ptr<GpuImage> ripple;         ///< normals of the rings at this moment

@@ -174,7 +174,7 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const Grids& grids, const 
 
 void tread(SnowCaps& caps, const SnowCapOptions& options)
 {
-    if (!options.pressed) return;
+    if (!options.pressed || !options.presses) return;
     for (SnowCaps::Point& point : caps.points) {
         const float left = 1.0f - options.pressed(point.base_m);
         point.share *= left;
