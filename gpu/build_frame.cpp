@@ -250,6 +250,13 @@ glm::ivec2 corner_px(const Frame& whole, const Frame& frame)
     return glm::ivec2(glm::round(0.5f * (picture - size) + 0.5f * up * (size * frame.camera.shift - picture * whole.camera.shift)));
 }
 
+// Where the frame is in the picture that its mirrors see.
+shared::MirrorWindow window_of(const Frame& frame, const FrameResources& r)
+{
+    if (!r.around) return {};
+    return mirror_window(*r.around, whole_of(frame, r), corner_px(whole_of(frame, r), frame));
+}
+
 void fill_views(shared::FrameConstants& c, const Frame& frame, const Sun& sun, const VisibleWeather& weather,
                 const FrameResources& r)
 {
@@ -449,7 +456,7 @@ std::uint32_t baked_kinds(const GpuScene& scene)
 }
 
 // What lets light through, over the solid picture: the same passes, on the targets of a layer.
-void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& constants,
+void add_layers(FrameGraph& graph, const Frame& frame, FrameResources& r, const ConstantsRange& constants,
                 const shared::FrameConstants& c, const VisibleWeather& weather,
                 LightingVariant variant, int layers, bool more)
 {
@@ -476,7 +483,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
         if (variant.image_based_light) {
             add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, variant.parts, false, variant.mirrors_picture,
-                             variant.emission && r.lights->glows});
+                             variant.emission && r.lights->glows, r.around, window_of(frame, r)});
         }
     };
     add_transparent(graph, *r.targets, *r.transparent, *r.parts, *r.scene, *r.sky, constants,
@@ -646,11 +653,12 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (label && settings.image_based_light) clear_mirrors(graph, *r.targets);
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, *r.probes, constants, variant);
+        if (r.kept && i == 0) add_keep_around(graph, *r.targets, *r.kept, parts.emission, constants);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, &r.parts->sum_or_none(),
                              label, variant.mirrors_picture,
-                             variant.emission && r.lights->glows},
+                             variant.emission && r.lights->glows, r.around, window_of(frame, r)},
                             pixels);
         }
         if (r.adaptive && i == 0) {
@@ -667,7 +675,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);
-            add_layers(graph, r, constants, c, made, variant, layers, needed > layers);
+            add_layers(graph, frame, r, constants, c, made, variant, layers, needed > layers);
         }
     }
     if (range.end < static_cast<std::uint32_t>(settings.samples)) return graph;

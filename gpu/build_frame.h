@@ -11,6 +11,7 @@
 #include "gpu/passes/lamp_glow/lamp_glow.h"
 #include "gpu/passes/lighting/lighting.h"
 #include "gpu/passes/patch_light/patch_light.h"
+#include "gpu/passes/reflections/picture_around.h"
 #include "gpu/passes/reflections/probe_table.h"
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
@@ -46,6 +47,8 @@ struct FrameResources {
     ProbeTable* probes = nullptr;
     GpuPlace* place = nullptr;
     LightParts* parts = nullptr;
+    PictureAround* around = nullptr;  ///< beyond the window that the frame is; null: nothing is known there
+    PictureAround* kept = nullptr;    ///< what the first sample sees is kept there
     float snow_lift_m = 0.0f;  ///< 0: snow has no body
     bool over_snow = false;    ///< the eye stands in none
     bool materials = false;  ///< an output asks which material a pixel has

@@ -350,7 +350,9 @@ struct Renderer::Impl {
     }
 
     /// `whole`: of the picture that the frame is a window of; else the frame itself.
-    RenderResult render(const Frame& frame, const Frame& whole, TargetSet& set);
+    /// around: beyond the window; kept: where this frame is kept as one.
+    RenderResult render(const Frame& frame, const Frame& whole, TargetSet& set, PictureAround* around = nullptr,
+                        PictureAround* kept = nullptr);
 
     Device device;
     PipelineCache pipelines;
@@ -473,7 +475,8 @@ void Renderer::set_environment(const EnvironmentMap& map)
     upload_image(impl_->device, *impl_->environment, {texels});
 }
 
-RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, TargetSet& set)
+RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, TargetSet& set, PictureAround* around,
+                                    PictureAround* kept)
 {
     std::vector<std::size_t> aov_rows;
     for (const std::string& name : frame.settings.aovs) aov_rows.push_back(aov_row(name));
@@ -515,6 +518,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, Targ
     FrameResources resources;
     resources.device = &device;
     resources.whole = &whole;
+    resources.around = around;
+    resources.kept = kept;
     resources.scene = scene.get();
     resources.targets = &set.targets;
     resources.surface_maps = &surface_maps;
@@ -618,7 +623,19 @@ RenderResult Renderer::render(const Frame& frame)
     return impl_->render(frame, frame, impl_->pictures);
 }
 
-RenderResult Renderer::render(const Frame& frame, const PictureTile& tile)
+std::shared_ptr<PictureAround> Renderer::look_around(const Frame& frame)
+{
+    const FrameSettings& s = frame.settings;
+    if (!s.reflections || !s.image_based_light || frame.camera.orthographic_height_m > 0.0f) return nullptr;
+    const Frame small = around_frame(frame);
+    check_frame(small, impl_->device.limits());
+    if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before look_around().");
+    auto around = std::make_shared<PictureAround>(impl_->device, small.settings.width, small.settings.height);
+    impl_->render(small, small, impl_->pictures, nullptr, around.get());
+    return around;
+}
+
+RenderResult Renderer::render(const Frame& frame, const PictureTile& tile, const std::shared_ptr<PictureAround>& around)
 {
     if (tile.x % kTileStep != 0 || tile.y % kTileStep != 0) {
         throw Error("render: a window at " + std::to_string(tile.x) + ", " + std::to_string(tile.y),
@@ -627,7 +644,7 @@ RenderResult Renderer::render(const Frame& frame, const PictureTile& tile)
     const Frame part = tile_frame(frame, tile);
     check_frame(part, impl_->device.limits());
     if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before render().");
-    return impl_->render(part, frame, impl_->pictures);
+    return impl_->render(part, frame, impl_->pictures, around.get());
 }
 
 MeterReading Renderer::meter(const Frame& frame, MeterOf what)

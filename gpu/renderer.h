@@ -48,6 +48,8 @@ struct RenderResult {
     double patch_light_cpu_ms = 0.0;  ///< CPU time of solving the light between surfaces; 0 where it was as before
 };
 
+struct PictureAround;  // gpu/passes/reflections/picture_around.h
+
 /// Renders frames of one scene. Movable, not copyable; not thread-safe. Same input, same bytes.
 class Renderer {
 public:
@@ -79,10 +81,13 @@ public:
 
     RenderResult render(const Frame& frame);
 
+    /// A small picture of the frame, which mirrors in its windows see beyond them; null where nothing mirrors the picture.
+    std::shared_ptr<PictureAround> look_around(const Frame& frame);
+
     /// A window of the frame's picture, as large as the tile. Where nothing reaches it from beyond the window its pixels
-    /// are the picture's to rounding: mirrors of the picture, glare and drops on the lens reach far. What falls and what
-    /// lights is told of the whole picture. The tile begins at multiples of kTileStep.
-    RenderResult render(const Frame& frame, const PictureTile& tile);
+    /// are the picture's to rounding: glare and drops on the lens reach far. Mirrors see `around` there, of the same frame;
+    /// null: nothing. What falls and what lights is told of the whole picture. The tile begins at multiples of kTileStep.
+    RenderResult render(const Frame& frame, const PictureTile& tile, const std::shared_ptr<PictureAround>& around = nullptr);
 
     /// Meters what the frame shows: renders it small, without a sample pattern (gpu/frame/metering.h). A function
     /// of the frame alone, as render() is. `exposure` and `aovs` of the frame do not count.

@@ -5,9 +5,9 @@
 namespace petrichor::film {
 namespace {
 
-// Of the longer side: what stands in a puddle is found so far from it.
+// Of the longer side: what stands in a puddle is seen sharply so far from it.
 constexpr int kBorderShare = 64;
-constexpr int kLeastBorder = 64;
+constexpr int kLeastBorder = 96;  // so far the screen's occlusion looks
 
 int in_steps(int pixels)
 {

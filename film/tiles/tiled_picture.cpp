@@ -97,6 +97,7 @@ TiledPicture render_tiled(gpu::Renderer& renderer, const gpu::Frame& frame, cons
     if (!files.png.empty()) light.emplace(files.folder / (files.png + ".light"), plan.width, plan.height);
     std::optional<texproc::ExrStrips> exr;
     PiecewiseHasher hasher(8 * size_of(plan.width, plan.height));
+    const std::shared_ptr<gpu::PictureAround> around = renderer.look_around(bare);
     int done = 0;
     for (int row = 0; row < plan.rows; ++row) {
         const gpu::PictureTile kept = tile_at(plan, 0, row).kept;
@@ -104,7 +105,7 @@ TiledPicture render_tiled(gpu::Renderer& renderer, const gpu::Frame& frame, cons
         for (int column = 0; column < plan.columns; ++column) {
             if (options.stop && options.stop()) throw Interrupted("interrupted between tiles");
             const PlannedTile tile = tile_at(plan, column, row);
-            const gpu::RenderResult result = renderer.render(bare, tile.window);
+            const gpu::RenderResult result = renderer.render(bare, tile.window, around);
             if (done == 0) {
                 made.exposure = result.exposure;
                 made.falling = result.falling;

@@ -57,9 +57,10 @@ void add_indirect(FrameGraph& graph, ComputePass pass, GpuBuffer& groups)
                           .pipelines = {},
                           .record = {}};
     list.pipelines.push_back({pass.shader, pass.constants, {types_of(list.bindings)}});
-    list.record = [shader = std::move(pass.shader),
-                   constants = std::move(pass.constants)](DispatchContext& context) {
+    list.record = [shader = std::move(pass.shader), constants = std::move(pass.constants),
+                   push = pass.push](DispatchContext& context) {
         context.bind(shader, constants);
+        context.push(push);
         context.dispatch_indirect(0);
     };
     graph.add(std::move(list));

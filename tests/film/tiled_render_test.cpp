@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 200, kHeight = 150;
+constexpr int kWidth = 400, kHeight = 300;  // windows of 256 x 256
 
 scene::Scene street()
 {
@@ -57,11 +57,12 @@ protected:
         fs::create_directories(folder_);
     }
     ~TiledRender() override { fs::remove_all(folder_); }
-    TiledPicture tiled(const gpu::Frame& frame, const StopRequest& stop = {})
+    TiledPicture tiled(const gpu::Frame& frame, const StopRequest& stop = {}, int side = 64)
     {
         TiledOptions options;
         options.stop = stop;
-        return render_tiled(*renderer, frame, plan_tiles(kWidth, kHeight, 64), {folder_, "a.exr", "a.png", {}}, options);
+        const TilePlan plan = plan_tiles(frame.settings.width, frame.settings.height, side);
+        return render_tiled(*renderer, frame, plan, {folder_, "a.exr", "a.png", {}}, options);
     }
     fs::path folder_;
 };
@@ -118,6 +119,38 @@ TEST_F(TiledRender, IsThePictureInOnePiece)
     Hasher hasher;
     hasher.add_numbers(std::span<const std::uint16_t>(beauty));
     EXPECT_EQ(hasher.text(), made.beauty_hash);
+}
+
+// What looks across the picture, too: mirrors in a wet floor, the screen's occlusion.
+TEST_F(TiledRender, HasTheMirrorsOfThePictureInOnePiece)
+{
+    renderer->load(street(), {});
+    gpu::Frame frame = frame_of();
+    frame.settings.width = 640;
+    frame.settings.height = 480;
+    frame.settings.samples = 1;
+    frame.settings.bloom = 0.0f;
+    frame.settings.wet_lens = 0.0f;
+    frame.settings.falling = false;
+    frame.settings.ambient_occlusion = true;
+    frame.weather.film_smoothness = 1.0f;
+    const gpu::RenderResult without = renderer->render(frame);
+    frame.settings.reflections = true;
+    const gpu::RenderResult whole = renderer->render(frame);
+    tiled(frame, {}, 160);
+    const texproc::RawImage png = texproc::read_raw(folder_ / "a.png");
+    std::size_t others = 0, mirror = 0;
+    for (std::size_t i = 0; i < whole.display.size() / 4; ++i) {
+        int apart = 0, of_mirrors = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            apart = std::max(apart, std::abs(static_cast<int>(png.bytes[3 * i + c]) - whole.display[4 * i + c]));
+            of_mirrors = std::max(of_mirrors, std::abs(static_cast<int>(without.display[4 * i + c]) - whole.display[4 * i + c]));
+        }
+        others += apart > 2 ? 1 : 0;
+        mirror += of_mirrors > 2 ? 1 : 0;
+    }
+    EXPECT_GT(mirror, 5000u);
+    EXPECT_LT(others, 20u);
 }
 
 TEST_F(TiledRender, LeavesNothingBehindAfterAStop)

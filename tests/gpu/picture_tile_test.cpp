@@ -216,6 +216,37 @@ TEST_F(PictureTileTest, DropsFallInTheSamePlaces)
     EXPECT_LT(apart, 0.02 * streaks);
 }
 
+// A floor like a mirror below a wall, a box and something that glows: what stands in it is above the window.
+TEST_F(PictureTileTest, MirrorsSeeBeyondTheirWindow)
+{
+    Scene scene = room();
+    scene.materials[0].roughness = 0.05f;
+    scene.materials[0].metallic = 1.0f;
+    renderer->load(scene, {});
+    Frame frame = frame_of(false);
+    frame.settings.reflections = true;
+    const RenderResult whole = renderer->render(frame);
+    const auto around = renderer->look_around(frame);
+    ASSERT_NE(around, nullptr);
+    for (const PictureTile& tile : {PictureTile{0, 64, 96, 64}, PictureTile{96, 96, 96, 32}, PictureTile{64, 64, 64, 64}}) {
+        std::size_t apart[2] = {};
+        for (const bool sees : {false, true}) {
+            const RenderResult part = renderer->render(frame, tile, sees ? around : nullptr);
+            for (int y = 0; y < tile.height; ++y) {
+                for (int x = 0; x < tile.width; ++x) {
+                    const glm::vec3 a(pixel(whole, tile.x + x, tile.y + y)), b(pixel(part, x, y));
+                    apart[sees] += glm::length(a - b) > 0.02f * std::max(glm::length(a), 1.0f) ? 1 : 0;
+                }
+            }
+        }
+        // Edges of what is mirrored are those of pixels' middles there.
+        EXPECT_LT(apart[1], static_cast<std::size_t>(tile.width * tile.height / 50)) << tile.x << " " << tile.y;
+        EXPECT_GT(apart[0], 8 * apart[1]) << tile.x << " " << tile.y;
+    }
+    frame.settings.reflections = false;
+    EXPECT_EQ(renderer->look_around(frame), nullptr);
+}
+
 TEST_F(PictureTileTest, AWindowThatBeginsElsewhereIsRefused)
 {
     renderer->load(room(), {});

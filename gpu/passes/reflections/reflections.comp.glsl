@@ -32,20 +32,25 @@ layout(binding = REFLECTIONS_EMISSION) uniform samplerBuffer emission_rows;
 layout(binding = REFLECTIONS_WEATHER) uniform samplerBuffer weather_rows;
 layout(binding = REFLECTIONS_PARTS, rgba32f) uniform image2DArray light_parts;
 layout(binding = REFLECTIONS_LABEL, rgba32f) uniform writeonly image2DArray label_image;
+layout(binding = REFLECTIONS_AROUND_DEPTH) uniform samplerBuffer around_depth;
+layout(binding = REFLECTIONS_AROUND_LIGHT) uniform samplerBuffer around_light;
+layout(binding = REFLECTIONS_AROUND_GLOW) uniform samplerBuffer around_glow;
+layout(push_constant, scalar) uniform Push { MirrorWindow window; };
 layout(constant_id = REFLECTIONS_SPEC_PROBES) const uint PROBES = 0;
 layout(constant_id = REFLECTIONS_SPEC_SPLIT) const uint SPLIT = 0;
 layout(constant_id = REFLECTIONS_SPEC_LABEL) const uint LABEL = 0;
 layout(constant_id = REFLECTIONS_SPEC_PICTURE) const uint PICTURE = 1;
 layout(constant_id = REFLECTIONS_SPEC_GLOWS) const uint GLOWS = 0;
+layout(constant_id = REFLECTIONS_SPEC_WINDOW) const uint WINDOW = 0;
 
 #include "gpu/passes/reflections/probes.glsl"
+#include "gpu/passes/reflections/mirrored_picture.glsl"
 
 const int kSteps = 32;
 const int kStepsAtOnce = 4;
 const int kRefinements = 2;  // of two halvings, and one more
 const int kTaps = 4;  // at one sample
 const float kWidest_px = 24.0;
-const float kBeyond = 0.125;  // of the width: so far the picture is taken to go on beyond its sides
 
 struct Hit {
     vec2 pixel;
@@ -53,20 +58,6 @@ struct Hit {
     float inside;      // the same, if nothing is known beyond the sides of the picture
     bool hidden;       // where the ray went behind what is seen, not where it met it
 };
-
-// The pixel that stands for a place, beyond the sides of the picture the one as far inside.
-vec2 turned_back(vec2 pixel)
-{
-    const float wide = float(frame.size.x);
-    return vec2(wide - abs(wide - abs(pixel.x)), pixel.y);
-}
-
-float scene_depth_m(vec2 pixel)
-{
-    const ivec2 at = clamp(ivec2(turned_back(pixel)), ivec2(0), frame.size - 1);
-    const float d = texelFetch(depth_rows, row_texel(at, frame.size)).r;
-    return d > 0.0 ? linear_depth(frame, d) : 1.0e9;
-}
 
 // A ray on the screen, from its origin to where it leaves the picture or vanishes far away: along it
 // pixels and 1 / depth go evenly.
@@ -77,7 +68,7 @@ struct ScreenRay {
 
 vec3 on_screen(vec4 clip)
 {
-    return vec3((clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.size), 1.0 / clip.w);
+    return vec3(in_picture((clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.size)), 1.0 / clip.w);
 }
 
 ScreenRay screen_ray(vec3 origin, vec3 direction)
@@ -88,14 +79,15 @@ ScreenRay screen_ray(vec3 origin, vec3 direction)
     ray.from = on_screen(begin);
     if (along.w > 1.0e-4) {
         // A point at infinity.
-        ray.to = vec3((along.xy / along.w * 0.5 + 0.5) * vec2(frame.size), 0.0);
+        ray.to = vec3(in_picture((along.xy / along.w * 0.5 + 0.5) * vec2(frame.size)), 0.0);
     } else {
         const float t = (frame.near_m * 2.0 - begin.w) / min(along.w, -1.0e-4);
         ray.to = on_screen(begin + along * clamp(t, 0.0, 1.0e4));
     }
     const vec2 delta = ray.to.xy - ray.from.xy;
-    const vec2 beyond = vec2(kBeyond * float(frame.size.x), -0.5);
-    const vec2 limit = mix(-beyond, vec2(frame.size) + beyond, greaterThan(delta, vec2(0.0)));
+    const vec2 size = vec2(picture_size());
+    const vec2 beyond = vec2(kBeyond * size.x, -0.5);
+    const vec2 limit = mix(-beyond, size + beyond, greaterThan(delta, vec2(0.0)));
     const vec2 reach = (limit - ray.from.xy) / mix(delta, vec2(1.0e-6), lessThan(abs(delta), vec2(1.0e-6)));
     const float kept = clamp(min(reach.x, reach.y), 0.0, 1.0);
     ray.to = mix(ray.from, ray.to, kept);
@@ -195,7 +187,8 @@ Hit trace(vec3 origin, vec3 direction)
         hit.hidden = true;
     }
     if (hit.confidence > 0.0) {
-        const vec2 edge = min(hit.pixel, vec2(frame.size) - hit.pixel) / vec2(frame.size);
+        const vec2 size = vec2(picture_size());
+        const vec2 edge = min(hit.pixel, size - hit.pixel) / size;
         const vec2 ends = hit.hidden ? step(vec2(0.0), edge) : clamp(edge * 30.0, 0.0, 1.0);
         hit.inside = hit.confidence * min(ends.x, ends.y);
         hit.confidence *= min(clamp(1.0 + edge.x / kBeyond, 0.0, 1.0), ends.y);
@@ -204,21 +197,13 @@ Hit trace(vec3 origin, vec3 direction)
     return hit;
 }
 
-// The picture where a ray met it; what glows is in part a lamp, whose highlight is there already.
-vec3 picture_at(ivec2 at, float roughness)
-{
-    vec3 seen = texelFetch(radiance_map, at, 0).rgb;
-    if (GLOWS != 0u) seen -= min(seen, texelFetch(emission_rows, row_texel(at, frame.size)).rgb * glow_share(roughness));
-    return seen;
-}
-
 // How far the lobe of a smooth surface is spread on the picture where its ray met it, pixels: half of all facets
 // of GGX lean less than alpha.
 float spread_px(vec3 position, vec2 pixel, float alpha)
 {
     const float hit_m = scene_depth_m(pixel);
-    const ivec2 at = clamp(ivec2(pixel), ivec2(0), frame.size - 1);
-    const vec3 met = pixel_position(frame, vec2(at) + 0.5, texelFetch(depth_rows, row_texel(at, frame.size)).r);
+    const ivec2 at = clamp(ivec2(pixel), ivec2(0), picture_size() - 1);
+    const vec3 met = pixel_position(frame, in_window(vec2(at) + 0.5), picture_depth(at));
     return clamp(2.8 * alpha * length(met - position) / max(pixel_width_m(frame, hit_m), 1.0e-6), 0.0, kWidest_px);
 }
 
@@ -236,7 +221,7 @@ vec3 seen_around(vec2 pixel, float radius, float roughness, vec3 met)
         const float angle = 2.39996323 * k + 6.2831853 * turn;
         const vec2 at = pixel + way * vec2(cos(angle), sin(angle));
         const bool nearer = scene_depth_m(at) < 0.85 * hit_m - 0.05;
-        const vec3 seen = picture_at(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1), roughness);
+        const vec3 seen = picture_at(clamp(ivec2(floor(at)), ivec2(0), picture_size() - 1), roughness);
         sum += nearer ? met : seen;
     }
     return sum / float(taps);
@@ -248,8 +233,11 @@ vec2 reflection_label(vec3 weight, Hit hit, float probed)
     const vec3 shares = vec3(hit.confidence, vec2(probed, 1.0 - probed) * (1.0 - hit.confidence));
     const float strength = (weight.r + weight.g + weight.b) / 3.0;
     if (shares.x >= max(shares.y, shares.z)) {
-        const ivec2 at = clamp(ivec2(hit.pixel), ivec2(0), frame.size - 1);
-        if (texelFetch(depth_rows, row_texel(at, frame.size)).r > 0.0) {
+        const ivec2 met = clamp(ivec2(hit.pixel), ivec2(0), picture_size() - 1);
+        const ivec2 at = here(met);
+        if (picture_depth(met) > 0.0) {
+            // Of what is beyond a window materials are not known.
+            if (beyond_window(at)) return vec2(REFLECTS_PROBE, strength * shares.x);
             return vec2(float(material_of(texelFetch(weather_rows, row_texel(at, frame.size)), LABEL)), strength * shares.x);
         }
         return vec2(REFLECTS_SKY, strength * (shares.x + shares.z));

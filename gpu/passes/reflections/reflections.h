@@ -3,6 +3,7 @@
 
 #include "gpu/frame/constants_range.h"
 #include "gpu/frame/pixel_list.h"
+#include "gpu/passes/reflections/picture_around.h"
 #include "gpu/passes/reflections/probe_table.h"
 #include "gpu/passes/sky/sky.h"
 
@@ -16,6 +17,8 @@ struct MirrorOutputs {
     bool label = false;         ///< what that is of
     bool picture = true;        ///< the picture itself is mirrored
     bool glows = false;         ///< surfaces that glow are lights, too
+    PictureAround* around = nullptr;  ///< of the picture that this is a window of; null: it ends where it ends
+    shared::MirrorWindow window = {};
 };
 
 // For a pass that labels pixels which mirror nothing, too: the lighting tells the others alone.

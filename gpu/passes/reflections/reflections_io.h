@@ -11,6 +11,14 @@ SHARED_BEGIN
 // samples cannot tell what a wide lobe meets.
 SHARED_CONST float kSharpRoughness = 0.16f;
 SHARED_CONST float kWideRoughness = 0.3f;
+
+// Where a window of a picture lies in it, and the small picture of the whole that stands for what is beyond the window.
+struct MirrorWindow {
+    ivec2 corner;   // pixels of the picture, as the next
+    ivec2 picture;
+    ivec2 around;   // size of the small one
+    vec2 per_pixel;  // of its pixels
+};
 SHARED_END
 
 #define REFLECTIONS_FRAME 0
@@ -30,11 +38,16 @@ SHARED_END
 
 #define REFLECTIONS_EMISSION 13
 
+#define REFLECTIONS_AROUND_DEPTH 14  // of the small picture, row by row
+#define REFLECTIONS_AROUND_LIGHT 15
+#define REFLECTIONS_AROUND_GLOW 16
+
 #define REFLECTIONS_SPEC_PROBES 0   // how many
 #define REFLECTIONS_SPEC_SPLIT 1    // 1: what is mirrored is written apart, too
 #define REFLECTIONS_SPEC_LABEL 2    // 1: .. and what it is of
 #define REFLECTIONS_SPEC_PICTURE 3  // 0: the picture itself is not mirrored
 #define REFLECTIONS_SPEC_GLOWS 4    // 1: what glows is a light, too, and has highlights on rough surfaces
+#define REFLECTIONS_SPEC_WINDOW 5   // 1: of a picture, of which there is a small one
 
 // Of a probe: position, boost; low corner, blend; high corner, share of sky above.
 #define PROBE_ROWS 3
