@@ -239,7 +239,8 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
             for (const double v : {drain.x, drain.y, drain.z}) hasher.add(v);
         for (const ScenarioTap& tap : ground.taps) {
             hasher.add("tap");
-            for (const double v : {tap.x_z_m.x, tap.x_z_m.y, tap.litres_per_min}) hasher.add(v);
+            for (const double v : {scenario.weather.hours_per_second, sequence.duration_s}) hasher.add(v);
+            for (const double v : {tap.x_z_m.x, tap.x_z_m.y, tap.litres_per_min, tap.temperature_c}) hasher.add(v);
             for (const auto& at : {tap.from_s, tap.to_s}) {
                 hasher.add(at.has_value());
                 hasher.add(at.value_or(0.0));

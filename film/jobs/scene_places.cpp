@@ -5,6 +5,7 @@
 
 #include "film/data/folders.h"
 #include "film/scenes/transport.h"
+#include "film/weather/upwind.h"
 #include "scene/patches/tracer.h"
 
 namespace petrichor::film {
@@ -56,18 +57,14 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
                                     [&](const SequenceVariant& v) {
                                         return wants_places(sequence, v.weather);
                                     });
-    const auto runs_a_file = [&](const SequenceVariant& v) {
-        return v.weather.table != nullptr && wants_places(sequence, v.weather);
-    };
     const bool taps = !sequence.scenario.ground.taps.empty();
     const char* const dry =
-        "[ground] tap: no water runs, since it does so on patches under a weather file and the "
-        "physical model alone";
-    if (taps && std::none_of(sequence.variants.begin(), sequence.variants.end(), runs_a_file))
-        notes.emplace_back(dry);
+        "[ground] tap: no water runs, since the weather is the same everywhere; [ground] patches = true "
+        "gives each place its own";
+    if (taps && first == sequence.variants.end()) notes.emplace_back(dry);
     if (first == sequence.variants.end()) {
         if (auto note = note_of_pictures(sequence.scenario.output)) notes.push_back(std::move(*note));
-        if (wants_hollows(sequence)) hollows_.emplace(sequence.scene);
+        if (wants_hollows(sequence)) hollows_.emplace(sequence.scene, sequence.scenario.ground);
         if (hollows_ && hollows_->any()) {
             notes.push_back("no material says where water stands: it runs to " +
                             std::to_string(hollows_->count()) + " hollows of the ground");
@@ -82,8 +79,7 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
     const SceneTransport transport = prepare_transport(sequence.scene, options);
     if (transport.patches.empty()) {
         notes.emplace_back("no surface stops light: the weather is the same everywhere");
-        if (taps && std::find(notes.begin(), notes.end(), dry) == notes.end())
-            notes.emplace_back(dry);
+        if (taps) notes.emplace_back("[ground] tap: no water runs, since there is no ground to run over");
         return;
     }
     std::vector<std::string> alpha_notes;
@@ -91,9 +87,14 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
     const scene::Tracer tracer(triangles);
     sites_ = scene_sites(sequence.scene, transport.patches, tracer, transport.surfaces,
                          sequence.scenario.ground, first->weather.physical.surface);
+    const bool drifts = std::any_of(sequence.variants.begin(), sequence.variants.end(), [&](const SequenceVariant& v) {
+        return v.weather.table && wants_places(sequence, v.weather) && wind_may_carry_snow(*v.weather.table);
+    });
+    if (drifts) find_upwind(sites_->set, sites_->shelter.position_m, tracer);
     notes.insert(notes.end(), transport.notes.begin(), transport.notes.end());
     for (const std::string& note : sites_->notes) notes.push_back("ground: " + note);
     notes.push_back("weather on " + std::to_string(transport.patches.count) + " patches, " +
+                    std::to_string(sites_->shelter.cuts.size()) + " of them cut where a shelter ends, " +
                     std::to_string(sites_->ground.basins.pits) + " hollows of the ground");
 }
 
@@ -107,10 +108,13 @@ void ScenePlaces::place(const Sequence& sequence, const Job& job, SequenceFrame&
     if (!variant.weather.table) {
         auto keyed = keyed_.find(job.variant);
         if (keyed == keyed_.end()) {
+            const double offset_s = variant.weather.script_offset_s;
+            const KeyedTaps clock{sequence.scenario.weather.hours_per_second, offset_s,
+                                  sequence.scenario.output.start_s + sequence.duration_s + offset_s};
             keyed = keyed_
                         .emplace(job.variant, ArtistPlaces(*sites_, *variant.weather.script,
                                                            variant.conditions.sun.latitude_degrees,
-                                                           sequence.scenario.scene.north_degrees))
+                                                           sequence.scenario.scene.north_degrees, clock))
                         .first;
         }
         frame.frame.place =

@@ -339,6 +339,7 @@ struct ScenarioTrack {
 struct ScenarioTap {
     glm::dvec2 x_z_m{0.0};
     double litres_per_min = 0.0;         ///< >= 0
+    double temperature_c = 10.0;         ///< of the water, 0..100
     std::optional<double> from_s, to_s;  ///< of the film; not given: it always runs
 };
 

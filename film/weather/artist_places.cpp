@@ -159,11 +159,14 @@ struct ArtistPlaces::Impl {
     std::vector<std::uint32_t> solved_of;  // of a patch
     std::vector<float> rain, hoar;         // of a patch: shares of what the open has
     std::vector<std::uint32_t> material;   // of a patch
+    std::vector<double> area_m2;           // of a patch
+    ShelterParts shelter;
     Solved open;
+    ArtistTaps taps;
 };
 
 ArtistPlaces::ArtistPlaces(const SceneSites& sites, const WeatherScript& script,
-                           double latitude_deg, double north_deg)
+                           double latitude_deg, double north_deg, const KeyedTaps& clock)
 {
     const std::vector<weather::WeightedClimate> climates = climates_of(script, latitude_deg, north_deg);
     const weather::SunPath path = weather::sun_path(climates.front().climate);
@@ -175,15 +178,29 @@ ArtistPlaces::ArtistPlaces(const SceneSites& sites, const WeatherScript& script,
         return Impl::Solved{std::move(here), std::move(weather), std::move(ice)};
     };
     auto impl = std::make_shared<Impl>(Impl{
-        sites.shape, sites.ground.basins, {}, {}, {}, {}, sites.material, solved(script)});
-    std::map<Class, std::uint32_t> known;
-    for (const weather::WeatherPatch& patch : sites.set.patches) {
+        sites.shape, sites.ground.basins, {}, {}, {}, {}, sites.material, {}, sites.shelter, solved(script),
+        ArtistTaps(sites.taps, sites.ground.basins, script, clock)});
+    const auto& wetted = impl->taps.wetted();
+    std::vector<std::vector<TapSpan>> runs{{}};  // of water over a place: none, then each that there is
+    std::map<std::pair<Class, std::size_t>, std::uint32_t> known;
+    for (std::uint32_t i = 0; i < sites.set.patches.size(); ++i) {
+        const weather::WeatherPatch& patch = sites.set.patches[i];
+        const auto below = wetted.find(i);
+        const auto run = std::find(runs.begin(), runs.end(),
+                                   below == wetted.end() ? std::vector<TapSpan>{} : below->second);
+        const auto which = static_cast<std::size_t>(run - runs.begin());
+        if (run == runs.end()) runs.push_back(below->second);
         const auto factors = weather::place_factors(patch, sites.set.kinds[patch.kind], climates, path);
         const Class c = class_of(factors);
         const auto [place, is_new] =
-            known.try_emplace(c, static_cast<std::uint32_t>(impl->solved.size()));
-        if (is_new) impl->solved.push_back(solved(script_at_place(script, factors_of(c))));
+            known.try_emplace({c, which}, static_cast<std::uint32_t>(impl->solved.size()));
+        if (is_new) {
+            WeatherScript here = script_at_place(script, factors_of(c));
+            if (which > 0) here = script_below_taps(script, std::move(here), runs[which]);
+            impl->solved.push_back(solved(std::move(here)));
+        }
         impl->solved_of.push_back(place->second);
+        impl->area_m2.push_back(patch.area_m2);
         impl->rain.push_back(static_cast<float>(factors.rain));
         impl->hoar.push_back(static_cast<float>(hoar_share(patch)));
     }
@@ -222,12 +239,15 @@ std::shared_ptr<const gpu::PlaceWeather> ArtistPlaces::at(double time_s) const
         place->states.emplace_back(static_cast<float>(1.0 - frozen), here.air_temperature_k,
                                    m.rain[i], static_cast<float>(m.material[i]));
     }
+    place->states = states_with_parts(std::move(place->states), PLACE_STATE_TEXELS, m.shelter, m.area_m2);
     // Everywhere the same film has run into the hollows.
     scene::BasinWater water(m.basins);
     const double depth_m = kPuddleRain_m * static_cast<double>(moment_of(m.open).flood_puddles);
     std::vector<double> into;
     for (const double cells : m.basins.pit_cells)
         into.push_back(depth_m * cells * m.basins.cell_area_m2);
+    const std::vector<double> let_in_m3 = m.taps.in_pits_m3(time_s);
+    for (std::size_t pit = 1; pit < let_in_m3.size(); ++pit) into[pit] += let_in_m3[pit];
     scene::pour(m.basins, water, into);
     place->levels_m = scene::drawn_levels_m(m.basins, water);
     return place;

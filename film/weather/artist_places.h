@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "film/scenario/weather_script.h"
+#include "film/weather/artist_taps.h"
 #include "film/weather/patch_weather.h"
 #include "weather/patches/place_factors.h"
 
@@ -18,8 +19,9 @@ WeatherScript script_at_place(const WeatherScript& script, const weather::PlaceF
 class ArtistPlaces {
 public:
     /// Factors are means over the script, by how much falls at its times: of its winds.
+    ///   clock  of the taps among the sites
     ArtistPlaces(const SceneSites& sites, const WeatherScript& script, double latitude_deg,
-                 double north_deg);
+                 double north_deg, const KeyedTaps& clock = {});
 
     /// The weather of every patch at a time of the script. Hollows hold what a film of puddles,
     /// 20 mm where they are full, has left in them.

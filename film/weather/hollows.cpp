@@ -1,8 +1,11 @@
 #include "film/weather/hollows.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "film/weather/patch_weather.h"
 
 namespace petrichor::film {
 namespace {
@@ -20,13 +23,15 @@ bool leaves_water_to_geometry(const scene::Scene& scene)
                         });
 }
 
-Hollows::Hollows(const scene::Scene& scene)
+Hollows::Hollows(const scene::Scene& scene, const ScenarioGround& keys)
 {
-    const scene::HeightField field = scene::ground_height_field(scene);
+    std::vector<std::string> notes;
+    const SceneGround ground = scene_ground(scene, keys, notes);
+    const scene::HeightField& field = ground.field;
     auto shape = std::make_shared<gpu::PlaceShape>();
     shape->table.resize(1);
     if (!field.empty()) {
-        basins_ = scene::find_basins(field);
+        basins_ = ground.basins;
         shape->basin_corner_m = glm::vec2(field.corner_m);
         shape->basin_cell_m = static_cast<float>(field.cell_m);
         shape->basin_width = static_cast<std::uint32_t>(field.width);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "film/scenario/scenario.h"
 #include "gpu/frame/frame.h"
 #include "scene/basins/water.h"
 
@@ -12,7 +13,8 @@ namespace petrichor::film {
 /// ground runs to where it is lowest (Fill-Spill-Merge).
 class Hollows {
 public:
-    explicit Hollows(const scene::Scene& scene);
+    /// keys: what is ground, and its drains
+    Hollows(const scene::Scene& scene, const ScenarioGround& keys);
 
     bool any() const { return basins_.pits > 0; }
     std::uint32_t count() const { return basins_.pits; }

@@ -62,6 +62,19 @@ void add_drain(const scene::HeightField& field, const glm::dvec3& drain,
     }
 }
 
+// Water runs over all parts of a patch.
+void add_parts_of(const ShelterParts& shelter, std::vector<std::uint32_t>& way)
+{
+    std::vector<std::uint32_t> all;
+    for (const std::uint32_t patch : way) {
+        all.push_back(patch);
+        const auto cut = std::find_if(shelter.cuts.begin(), shelter.cuts.end(), [&](const ShelterParts::Cut& c) { return c.parts.patch == patch; });
+        if (cut == shelter.cuts.end()) continue;
+        for (std::uint32_t part = 1; part < cut->parts.count; ++part) all.push_back(cut->weather_patch(part));
+    }
+    way = std::move(all);
+}
+
 float narrow(double v)
 {
     return static_cast<float>(v);
@@ -140,13 +153,17 @@ SceneSites scene_sites(const scene::Scene& scene, const scene::Patches& patches,
     const WaterReliefs reliefs = water_reliefs(patches, tracer.triangles(), sites.notes);
     sites.set = patch_sites(patches, tracer, surfaces, sites.ground, otherwise, reliefs);
     sites.relief = reliefs.of_material;
-    sites.material = patches.material;
+    sites.shelter = cut_at_shelters(sites.set, patches, tracer);
+    for (const std::uint32_t patch : sites.shelter.of) sites.material.push_back(patches.material[patch]);
     sites.taps = tap_sites(keys.taps, sites.ground, patches);
+    for (TapSite& site : sites.taps)
+        for (weather::TapStretch& stretch : site.tap.stretches) add_parts_of(sites.shelter, stretch.way);
     if (!keys.gutters)
         for (weather::WeatherPatch& p : sites.set.patches) p.gutter_share = 0.0;
     const auto shape = std::make_shared<gpu::PlaceShape>();
     shape->grid = scene::table_grid(patches);
     shape->table = patches.table;
+    for (const ShelterParts::Cut& cut : sites.shelter.cuts) gpu::append_parts(shape->table, cut.parts);
     const scene::HeightField& field = sites.ground.field;
     shape->basin_corner_m = glm::vec2(field.corner_m);
     shape->basin_cell_m = narrow(field.cell_m);
@@ -165,6 +182,7 @@ struct PlaceWeatherOfFile::Impl {
     std::vector<WaterRelief> relief;         // by material
     std::vector<std::uint32_t> material;     // of a patch
     std::vector<double> area_m2;
+    ShelterParts shelter;
     // Of a patch of the ground: its pond (kRunsOut: none) and the height of its middle.
     std::vector<std::uint32_t> pond;
     std::vector<double> height_m;
@@ -190,7 +208,7 @@ PlaceWeatherOfFile::PlaceWeatherOfFile(const SceneSites& sites, const weather::F
     impl_ = std::make_shared<Impl>(Impl{
         sites.shape, std::make_shared<const scene::Basins>(sites.ground.basins),
         std::move(surfaces), std::move(kind), sites.relief, sites.material, std::move(area_m2),
-        std::move(pond), std::move(height_m),
+        sites.shelter, std::move(pond), std::move(height_m),
         weather::PatchWeather(table, sites.set, params, from_us, ponds_of(sites.ground)), from_us});
 }
 
@@ -227,6 +245,7 @@ std::shared_ptr<const gpu::PlaceWeather> PlaceWeatherOfFile::at(std::int64_t utc
         put_state(m.run.state(i), m.surfaces[m.kind[i]], m.relief[m.material[i]], m.material[i],
                   pond, &place->states[i * PLACE_STATE_TEXELS]);
     }
+    place->states = states_with_parts(std::move(place->states), PLACE_STATE_TEXELS, m.shelter, m.area_m2);
     const std::uint32_t kind = m.run.open_kind();
     const auto material = static_cast<std::uint32_t>(kind % m.relief.size());
     place->open.resize(PLACE_STATE_TEXELS);

@@ -9,6 +9,7 @@
 
 #include "film/scenario/scenario.h"
 #include "film/weather/patch_sites.h"
+#include "film/weather/shelter_parts.h"
 #include "film/weather/tap_sites.h"
 #include "film/weather/water_relief.h"
 #include "gpu/frame/frame.h"
@@ -27,7 +28,8 @@ struct SceneSites {
     SceneGround ground;
     std::shared_ptr<const gpu::PlaceShape> shape;
     std::vector<WaterRelief> relief;           ///< by material
-    std::vector<std::uint32_t> material;       ///< of a patch
+    std::vector<std::uint32_t> material;       ///< of a weather patch
+    ShelterParts shelter;                      ///< patches that are cut finer
     std::vector<TapSite> taps;                 ///< of the keys
     std::vector<std::string> notes;
 };

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "scene/patches/lookup.h"
+#include "weather/physics/constants.h"
 
 namespace petrichor::film {
 namespace {
@@ -168,6 +169,7 @@ std::vector<TapSite> tap_sites(const std::vector<ScenarioTap>& taps, const Scene
         site.from_s = one.from_s;
         site.to_s = one.to_s;
         site.tap.flow_kg_s = one.litres_per_min / 60.0;
+        site.tap.temp_k = weather::kZeroCelsiusK + one.temperature_c;
         site.tap.stretches = stretches_from(ground, filled_m, cell, patches);
         sites.push_back(std::move(site));
     }

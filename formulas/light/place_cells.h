@@ -8,11 +8,13 @@
 // or 2 x 2 x 2 of the finest. So most points are found in two or three reads, all by the same steps.
 //
 // A PatchGrid of a tree has in `levels` those of the roots (5 bits) and how many there are across (9 bits for each of x, y and z),
-// and in `table_mask` and `neighbors` the key of the first root's cell.
+// and in `table_mask` and `neighbors` the key of the first root's cell; in the two bits behind that by how many levels the finest cells of
+// the tree are finer than those of level 0 of the patches, whose parts they are. Levels of the tree are counted from its own finest.
 #ifndef PETRICHOR_FORMULAS_LIGHT_PLACE_CELLS_H
 #define PETRICHOR_FORMULAS_LIGHT_PLACE_CELLS_H
 
 #include "base/interop.h"
+#include "formulas/light/patch_cells.h"
 #include "formulas/noise/noise.h"
 
 SHARED_BEGIN
@@ -26,6 +28,19 @@ SHARED_CONST int kMostRootsAcross = 511;
 SHARED_FN uint place_leaf_patch(uint leaf) { return leaf & 0xffffu; }
 SHARED_FN int place_leaf_level(uint leaf) { return int((leaf >> 16u) & 15u); }
 SHARED_FN bool place_leaf_sees(uint leaf, int way) { return ((leaf >> (20u + uint(way))) & 1u) != 0u; }
+
+// By how many levels the cells of a tree are finer than those of the patches, 0..3.
+SHARED_FN int place_finer(PatchGrid tree) { return int(tree.neighbors >> 25u) & 3; }
+
+// The finest cell of a tree that holds a point, and its edge.
+SHARED_FN ivec3 place_cell(PatchGrid tree, vec3 x)
+{
+    const int finer = place_finer(tree);
+    const vec3 c = floor((x * (1.0f / tree.cell_m) + splat3(kPatchGridShift)) * float(1 << finer));
+    const int bias = kPatchCellBias << finer;
+    return ivec3(int(c.x), int(c.y), int(c.z)) + ivec3(bias, bias, bias);
+}
+SHARED_FN float place_edge_m(PatchGrid tree) { return tree.cell_m / float(1 << place_finer(tree)); }
 
 // The number of a way of -1..1 cells along the next axis of the plane, and along the one behind that.
 SHARED_FN int place_way(int along, int across) { return along + 1 + 3 * (across + 1); }

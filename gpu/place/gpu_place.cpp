@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "gpu/place/place_parts.h"
 
 namespace petrichor::gpu {
 namespace {
@@ -29,8 +30,14 @@ void fill(GpuBuffer& buffer, const std::vector<T>& values)
 void check(const PlaceWeather& place)
 {
     const PlaceShape& s = *place.shape;
-    const bool tables = s.table.size() == std::size_t{s.grid.table_mask} + 1 &&
-                        place.states.size() == std::size_t{s.grid.patches} * PLACE_STATE_TEXELS &&
+    const bool whole = s.table.size() > s.grid.table_mask;
+    const std::vector<PlaceParts> parts = whole ? parts_of(s.table, s.grid) : std::vector<PlaceParts>{};
+    const std::size_t states = std::size_t{s.grid.patches} + count_of_parts(parts);
+    const bool fit = std::all_of(parts.begin(), parts.end(), [&](const PlaceParts& p) {
+        return p.patch < s.grid.patches && p.count <= kMostParts &&
+               std::all_of(p.of_cell.begin(), p.of_cell.end(), [&](std::uint8_t part) { return part < p.count; });
+    });
+    const bool tables = whole && fit && place.states.size() == states * PLACE_STATE_TEXELS &&
                         (place.open.empty() || place.open.size() == PLACE_STATE_TEXELS);
     const bool hollows =
         s.labels.size() == std::size_t{s.basin_width} * s.basin_depth && !place.levels_m.empty() &&
@@ -59,6 +66,7 @@ GpuPlace::GpuPlace(const Device& device)
 
 void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t levels, const PlaceTree& tree)
 {
+    const std::size_t places = tree.grid.patches;  // patches and parts
     table_.reset();
     states_.reset();
     labels_.reset();
@@ -68,7 +76,7 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
     table_ = texel_buffer(*arena_, "place_table", tree.words.size() * 4, VK_FORMAT_R32_UINT);
     states_ = texel_buffer(
         *arena_, "place_states",
-        (std::size_t{shape.grid.patches} + 1) * PLACE_STATE_TEXELS * sizeof(glm::vec4),
+        (places + 1) * PLACE_STATE_TEXELS * sizeof(glm::vec4),
         VK_FORMAT_R32G32B32A32_SFLOAT);
     labels_ = texel_buffer(*arena_, "place_labels", at_least(shape.labels.size()) * 4,
                            VK_FORMAT_R32_UINT);

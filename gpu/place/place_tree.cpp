@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+
+#include "gpu/place/place_parts.h"
 
 namespace petrichor::shared {
 namespace {
@@ -26,6 +29,9 @@ namespace {
 using shared::kNoPlace;
 using shared::kPlaceCut;
 using shared::kPlaceWords;
+
+// Levels have four bits in a leaf.
+constexpr std::uint32_t kMostLevels = 16;
 
 // Of all six axes. More levels of roots would save a step of those below them.
 constexpr std::int64_t kMostRoots = 1 << 17;
@@ -64,16 +70,17 @@ std::uint32_t word_of(const Leaf& leaf)
     return word;
 }
 
-std::vector<Leaf> leaves_of(const shared::PatchGrid& grid, std::span<const glm::uvec4> table)
+// finer: levels of the tree below those of the patches.
+std::vector<Leaf> leaves_of(const shared::PatchGrid& grid, std::span<const glm::uvec4> table, int finer)
 {
     std::vector<Leaf> leaves;
-    for (const glm::uvec4& entry : table) {
+    for (const glm::uvec4& entry : table.first(std::size_t{grid.table_mask} + 1)) {
         if (entry.z >= grid.patches) continue;
         const auto x = static_cast<int>(entry.x & 0x7ffffu);
         const auto y = static_cast<int>(entry.x >> 19 | (entry.y & 63u) << 13);
         const auto z = static_cast<int>(entry.y >> 6 & 0x7ffffu);
         leaves.push_back({{x, y, z},
-                          static_cast<int>(entry.y >> 28),
+                          static_cast<int>(entry.y >> 28) + finer,
                           static_cast<int>(entry.y >> 25 & 7u),
                           entry.z,
                           entry.w});
@@ -81,14 +88,51 @@ std::vector<Leaf> leaves_of(const shared::PatchGrid& grid, std::span<const glm::
     return leaves;
 }
 
+// The leaves of a patch's parts: squares of one part each, through all of its cell along its axis. A leaf within the patch is
+// connected to all of it, at its border as the patch is.
+void add_parts(std::vector<Leaf>& leaves, const Leaf& whole, const PlaceParts& parts, std::uint32_t first)
+{
+    const int finest = whole.level - kPartLevels;
+    const auto part_at = [&](int u, int v) { return parts.of_cell[static_cast<std::size_t>(u + v * kPartCells)]; };
+    const auto add_square = [&](const auto& self, int u, int v, int side, int level) -> void {
+        bool same = true;
+        for (int k = 0; k < side * side; ++k) same = same && part_at(u + k % side, v + k / side) == part_at(u, v);
+        if (!same) {
+            const int half = side / 2;
+            for (int k = 0; k < 4; ++k) self(self, u + k % 2 * half, v + k / 2 * half, half, level - 1);
+            return;
+        }
+        Leaf leaf = whole;
+        leaf.level = level;
+        leaf.patch = first + part_at(u, v);
+        leaf.connected = 0;
+        for (int way = 0; way < 9; ++way) {
+            const int along = way % 3 - 1, across = way / 3 - 1;
+            const auto out = [&](int at, int step) { return at + step * side < 0 ? -1 : at + step * side >= kPartCells ? 1 : 0; };
+            if (sees(whole, step_of(whole.axis, out(u, along), out(v, across)))) {
+                const glm::ivec3 bit = step_of(whole.axis, along, across) + 1;
+                leaf.connected |= 1u << (bit.x + 3 * bit.y + 9 * bit.z);
+            }
+        }
+        leaf.cell = whole.cell << (whole.level - level);
+        leaf.cell[along_of(whole.axis)] += u / side;
+        leaf.cell[across_of(whole.axis)] += v / side;
+        for (int layer = 0; layer < kPartCells / side; ++layer) {
+            leaves.push_back(leaf);
+            ++leaf.cell[whole.axis / 2];
+        }
+    };
+    add_square(add_square, 0, 0, kPartCells, finest + kPartLevels);
+}
+
 // The finest level of roots whose box is not too large.
 struct Roots {
     int level = 0;
     glm::ivec3 first{0}, across{0};
 
-    explicit Roots(std::span<const Leaf> leaves)
+    Roots(std::span<const Leaf> leaves, int finer) : level(finer)
     {
-        glm::ivec3 low(1 << 19), high(0);
+        glm::ivec3 low(std::numeric_limits<int>::max()), high(0);
         for (const Leaf& leaf : leaves) {
             low = glm::min(low, leaf.cell << leaf.level);
             high = glm::max(high, (leaf.cell << leaf.level) + ((1 << leaf.level) - 1));
@@ -207,24 +251,48 @@ PlaceTree place_tree(const shared::PatchGrid& grid, std::span<const glm::uvec4> 
                      std::span<const std::uint32_t> materials)
 {
     PlaceTree tree;
-    const std::vector<Leaf> leaves = grid.levels > 0 ? leaves_of(grid, table) : std::vector<Leaf>{};
-    if (leaves.empty()) {
+    const bool deep = grid.levels + std::uint32_t{kPartLevels} > kMostLevels;
+    const std::vector<PlaceParts> parted = grid.levels > 0 && !deep ? parts_of(table, grid) : std::vector<PlaceParts>{};
+    const int finer = parted.empty() ? 0 : kPartLevels;
+    const std::vector<Leaf> wholes = grid.levels > 0 ? leaves_of(grid, table, finer) : std::vector<Leaf>{};
+    if (wholes.empty()) {
         tree.words.assign(1, kNoPlace);
         return tree;
     }
-    const Roots box(leaves);
+    std::vector<const PlaceParts*> parts(grid.patches, nullptr);
+    for (const PlaceParts& one : parted) parts[one.patch] = &one;
+    std::vector<Leaf> leaves;
+    for (const Leaf& whole : wholes) {
+        const PlaceParts* of = parts[whole.patch];
+        if (of == nullptr) {
+            leaves.push_back(whole);
+        } else {
+            add_parts(leaves, whole, *of, grid.patches + of->first);
+        }
+    }
+    const Roots box(leaves, finer);
     const shared::PatchKey first = shared::patch_key(box.first, 0, 0);
     tree.grid = {grid.cell_m,
                  static_cast<std::uint32_t>(box.level + 1) | static_cast<std::uint32_t>(box.across.x) << 5 |
                      static_cast<std::uint32_t>(box.across.y) << 14 | static_cast<std::uint32_t>(box.across.z) << 23,
-                 grid.patches, first.low, first.high};
-    const std::size_t roots = std::size_t{grid.patches} * kPlaceWords;
+                 static_cast<std::uint32_t>(materials.size()), first.low,
+                 first.high | static_cast<std::uint32_t>(finer) << 25};
+    const std::size_t roots = std::size_t{tree.grid.patches} * kPlaceWords;
     tree.words.assign(roots + std::size_t{6} * static_cast<std::size_t>(box.across.x) * static_cast<std::size_t>(box.across.y) *
                                   static_cast<std::size_t>(box.across.z),
                       kNoPlace);
     for (const Leaf& leaf : leaves) add_leaf(tree.words, roots, box, leaf);
-    for (std::uint32_t patch = 0; patch < grid.patches; ++patch) tree.words[std::size_t{patch} * kPlaceWords] = materials[patch];
-    for (const Leaf& leaf : leaves) put_sides(tree.words, tree.grid, leaf, materials);
+    for (std::uint32_t patch = 0; patch < tree.grid.patches; ++patch)
+        tree.words[std::size_t{patch} * kPlaceWords] = materials[patch];
+    for (const Leaf& whole : wholes) {
+        put_sides(tree.words, tree.grid, whole, materials);
+        const PlaceParts* of = parts[whole.patch];
+        for (std::uint32_t k = 0; of != nullptr && k < of->count; ++k) {
+            Leaf part = whole;
+            part.patch = grid.patches + of->first + k;
+            put_sides(tree.words, tree.grid, part, materials);
+        }
+    }
     return tree;
 }
 

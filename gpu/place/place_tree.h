@@ -17,7 +17,8 @@ struct PlaceTree {
     std::vector<std::uint32_t> words;  ///< at least one
 };
 
-/// Of the table of all nodes and its grid (scene::Patches::table, scene::table_grid), and the material of every patch.
+/// Of the table of all nodes and its grid (scene::Patches::table, scene::table_grid), behind which parts of patches may stand
+/// (place_parts.h), and the material of every patch and every part.
 PlaceTree place_tree(const shared::PatchGrid& grid, std::span<const glm::uvec4> table,
                      std::span<const std::uint32_t> materials);
 

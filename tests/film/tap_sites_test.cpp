@@ -11,7 +11,9 @@
 #include "base/error.h"
 #include "film/jobs/scene_places.h"
 #include "film/scenario/scenario.h"
+#include "film/weather/artist_places.h"
 #include "film/weather/patch_weather.h"
+#include "scene/basins/water.h"
 #include "tests/film/rain_table.h"
 
 namespace petrichor::film {
@@ -214,6 +216,82 @@ TEST(TapSites, WaterRunsOverTheBrimToTheNextHollowAndOut)
     EXPECT_LE(std::abs(books.residual()), 1e-9 * books.let_in);
 }
 
+// Under keys of the artist model: dry weather, an hour of the clock each second.
+TEST(ArtistTaps, WetTheirWayAndFillTheHollowUnderKeysToo)
+{
+    const Valley place;
+    ScenarioTap tap = tap_at(-3.3, 1.2, 30.0);
+    tap.from_s = 1.0;
+    tap.to_s = 4.5;
+    const SceneSites sites = place.sites({tap});
+    const WeatherScript script = read_weather_script(
+        "[weather]\nkeys = [{ time_s = 0, temperature_c = 20, rainfall = 0 }, { time_s = 40, temperature_c = 20 }]", "test");
+    const ArtistPlaces places(sites, script, 50.0, 0.0, {1.0, 0.0, 40.0});
+    const ArtistPlaces without(place.sites({}), script, 50.0, 0.0);
+    const weather::TapStretch& way = sites.taps[0].tap.stretches[0];
+    const std::uint32_t pit = (way.runs_to & ~weather::kToPond) + 1;
+    const auto film = [&](double time_s, std::uint32_t patch) { return places.at(time_s)->states[patch * PLACE_STATE_TEXELS].x; };
+    const auto over_pit_m = [&](double time_s) {
+        return places.at(time_s)->levels_m[pit] - sites.ground.basins.hollow[pit].pit_m;
+    };
+    EXPECT_EQ(film(0.9, way.way[2]), 0.0f);
+    EXPECT_LE(over_pit_m(0.9), 0.0f);
+    EXPECT_GT(film(4.4, way.way[2]), 0.9f);
+    EXPECT_GT(over_pit_m(2.0), 0.02f);
+    EXPECT_GT(over_pit_m(4.4), over_pit_m(2.0) + 0.05f);
+    // 30 l a minute for 3.5 hours.
+    scene::BasinWater water(sites.ground.basins);
+    std::vector<double> into(sites.ground.basins.pits + std::size_t{1}, 0.0);
+    into[pit] = 6.3;
+    scene::pour(sites.ground.basins, water, into);
+    EXPECT_NEAR(places.at(4.5)->levels_m[pit], scene::levels_m(sites.ground.basins, water)[pit], 0.003f);
+    // It dries as puddles do, and nothing else was ever wet.
+    EXPECT_LT(film(39.0, way.way[2]), 0.2f);
+    EXPECT_LT(over_pit_m(39.0), over_pit_m(4.5) - 0.01f);
+    for (std::uint32_t i = 0; i < place.patches.count; ++i)
+        if (place.patches.position_m[i].x < -4.0f) {
+            EXPECT_EQ(film(4.4, i), 0.0f) << i;
+        }
+    EXPECT_EQ(places.at(0.5)->states, without.at(0.5)->states);
+}
+
+TEST(ArtistTaps, KeepTheirWayOpenInFrost)
+{
+    const Valley place;
+    ScenarioTap tap = tap_at(-3.3, 1.2, 30.0);
+    tap.to_s = 10.0;
+    const SceneSites sites = place.sites({tap});
+    const WeatherScript script = read_weather_script(
+        "[weather]\nkeys = [{ time_s = 0, temperature_c = -12, rainfall = 0 }, { time_s = 40, temperature_c = -12 }]", "test");
+    const ArtistPlaces places(sites, script, 50.0, 0.0, {1.0, 0.0, 40.0});
+    const std::uint32_t on_way = sites.taps[0].tap.stretches[0].way[2];
+    const auto of = [&](double time_s, std::size_t texel) { return places.at(time_s)->states[on_way * PLACE_STATE_TEXELS + texel]; };
+    EXPECT_LT(of(9.0, 1).y, 0.05f);
+    EXPECT_GT(of(9.0, 0).x, 0.9f);
+    // Then it freezes, and stays as ice.
+    EXPECT_GT(of(30.0, 1).y, 0.9f);
+    EXPECT_GT(of(30.0, 0).z, 0.3f);
+}
+
+TEST(ArtistTaps, AreNoColderThanTheirWaterAndJumpAtTheirTimes)
+{
+    WeatherScript script = read_weather_script(
+        "[weather]\nkeys = [{ time_s = 0, temperature_c = -8, rainfall = 0.2 }, { time_s = 20, temperature_c = 30, rainfall = 0.2 }]", "test");
+    const WeatherScript under_a_roof = script_at_place(script, {0.0, 1.0, 1.0, 1.0});
+    const WeatherScript below = script_below_taps(script, under_a_roof, {{4.0, 18.0, 10.0}});
+    const auto air = [&](double s) { return weather::value_at(below.timeline.temperature_c, 1e6 * s); };
+    EXPECT_NEAR(air(2.0), -4.2, 1e-4);
+    EXPECT_NEAR(air(5.0), 10.0, 1e-4);
+    EXPECT_NEAR(air(17.5), 25.25, 1e-4);
+    EXPECT_NEAR(air(19.0), 28.1, 1e-4);
+    EXPECT_NEAR(weather::value_at(below.timeline.rainfall, 3.999e6), 0.2, 1e-9);
+    EXPECT_EQ(weather::value_at(below.timeline.rainfall, 4.001e6), 1.0);
+    EXPECT_NEAR(weather::value_at(below.timeline.rainfall, 18.001e6), 0.2, 1e-9);
+    const weather::Channel& wets = below.timeline.parameters.at("accumulation_rate_wetness");
+    EXPECT_EQ(weather::value_at(wets, 2e6), 0.0);
+    EXPECT_EQ(weather::value_at(wets, 10e6), script.params.accumulation_rate_wetness);
+}
+
 TEST(TapSites, OutsideOfTheGroundTheyAreRefused)
 {
     const Valley place;
@@ -240,7 +318,7 @@ TEST(GroundKeys, TapsAndDrainsAreTables)
         "[scene]\nfile = \"demo:street\"\n[ground]\ndrains = [[1.0, 2.0, 0.3]]\n"
         "[[ground.drain]]\nx_z_m = [4.0, -5.0]\nradius_m = 0.2\n"
         "[[ground.drain]]\nx_z_m = [0.0, 1.0]\n"
-        "[[ground.tap]]\nx_z_m = [2.0, -1.5]\nlitres_per_min = 20.0\nto_s = 600.0\n",
+        "[[ground.tap]]\nx_z_m = [2.0, -1.5]\nlitres_per_min = 20.0\ntemperature_C = 4.0\nto_s = 600.0\n",
         "s.toml");
     const std::set<std::vector<double>> drains = [&] {
         std::set<std::vector<double>> all;
@@ -252,6 +330,7 @@ TEST(GroundKeys, TapsAndDrainsAreTables)
     ASSERT_EQ(s.ground.taps.size(), 1u);
     EXPECT_EQ(s.ground.taps[0].x_z_m, glm::dvec2(2.0, -1.5));
     EXPECT_EQ(s.ground.taps[0].litres_per_min, 20.0);
+    EXPECT_EQ(s.ground.taps[0].temperature_c, 4.0);
     EXPECT_FALSE(s.ground.taps[0].from_s.has_value());
     EXPECT_EQ(s.ground.taps[0].to_s, 600.0);
 }
@@ -266,12 +345,15 @@ TEST(GroundKeys, WhatATapCannotBeIsRefused)
     EXPECT_NE(error_of("[[ground.tap]]\nlitres_per_min = 1.0\n"), "");
     EXPECT_NE(error_of("[[ground.tap]]\nx_z_m = [nan, 0.0]\nlitres_per_min = 1.0\n"), "");
     EXPECT_NE(error_of(tap + "litres_per_min = 1.0\nfrom_s = 5.0\nto_s = 4.0\n"), "");
+    EXPECT_EQ(error_of(tap + "litres_per_min = 1.0\ntemperature_C = 60\n"), "");
+    EXPECT_NE(error_of(tap + "litres_per_min = 1.0\ntemperature_C = -1\n"), "");
+    EXPECT_NE(error_of(tap + "litres_per_min = 1.0\ntemperature_C = nan\n"), "");
     EXPECT_NE(error_of(tap + "litres_per_minute = 1.0\n"), "");
     EXPECT_NE(error_of("[[ground.drain]]\nx_z_m = [0.0, 0.0]\nradius_m = -1.0\n"), "");
     EXPECT_NE(error_of("[[ground.drain]]\nradius_m = 1.0\n"), "");
 }
 
-TEST(GroundKeys, ATapWithoutPatchesUnderAWeatherFileIsSaid)
+TEST(GroundKeys, ATapWithoutPatchesIsSaid)
 {
     const auto says_so = [](const std::string& text) {
         const Sequence sequence = make_sequence(parse_scenario(text, "s.toml"));

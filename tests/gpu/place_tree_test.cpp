@@ -1,4 +1,5 @@
 // The tree of cells in which pixels find their patch, beside a walk through the table of all nodes.
+#include "gpu/place/place_parts.h"
 #include "gpu/place/place_tree.h"
 
 #include <gtest/gtest.h>
@@ -178,6 +179,72 @@ TEST(PlaceTree, FindsTheMaterialOfThePoint)
     }
     EXPECT_GT(mended, 1000u);
     EXPECT_LT(missed, mended / 100);
+}
+
+// Cells within a patch may have parts of their own; all others find what they found before.
+TEST(PlaceTree, FindsThePartOfAPatch)
+{
+    const Street& s = the_street();
+    const scene::Patches& p = s.patches;
+    const shared::PatchGrid grid = scene::table_grid(p);
+    std::vector<glm::uvec4> table = p.table;
+    std::vector<std::uint32_t> materials = p.material;
+    std::vector<PlaceParts> of(p.count);
+    std::uint32_t first = 0;
+    for (std::uint32_t i = 0; i < p.count; i += 3) {
+        PlaceParts& parts = of[i];
+        parts = {i, first, 2 + i % 3, {}};
+        for (std::uint32_t k = 0; k < parts.of_cell.size(); ++k)
+            parts.of_cell[k] = static_cast<std::uint8_t>((k % 8 + k / 8) * parts.count / 15);
+        append_parts(table, parts);
+        first += parts.count;
+        for (std::uint32_t k = 0; k < parts.count; ++k) materials.push_back(p.material[i]);
+    }
+    ASSERT_EQ(parts_of(table, grid).size(), (p.count + 2) / 3);
+    ASSERT_EQ(count_of_parts(parts_of(table, grid)), first);
+    const PlaceTree tree = place_tree(grid, table, materials);
+    ASSERT_EQ(tree.grid.patches, p.count + first);
+    std::size_t within = 0, whole = 0, beside = 0;
+    std::set<std::uint32_t> met;
+    for (const Point& point : points_of(s.scene, 40000)) {
+        const Both plain = by_table(p, point.x, point.n, vec3(0.0f));
+        const shared::PlaceLeaves found = place_leaves(tree, point.x, point.n, vec3(0.0f));
+        if (plain.own == shared::kNoPatch) {
+            ASSERT_EQ(found.own, shared::kNoPlace);
+            continue;
+        }
+        const std::uint32_t number = shared::place_leaf_patch(found.own);
+        ASSERT_EQ(found.own, found.other);
+        if (of[plain.own].count == 0) {
+            ASSERT_EQ(number, plain.own);
+            ++whole;
+            continue;
+        }
+        // Where in its patch the point lies, and what stands there.
+        const shared::PatchKey key = p.key[plain.own];
+        const int axis = scene::axis_of(key), level = scene::level_of(key);
+        const float edge = p.level_cell_m(level);
+        const vec3 in_cells = ((point.x + point.n * (0.06f * p.cell_m)) + shared::kPatchGridShift * p.cell_m) / edge;
+        const vec3 at = (in_cells - glm::floor(in_cells)) * 8.0f;
+        const int u = static_cast<int>(at[(axis / 2 + 1) % 3]), v = static_cast<int>(at[(axis / 2 + 2) % 3]);
+        if (std::abs(at[(axis / 2 + 1) % 3] - std::round(at[(axis / 2 + 1) % 3])) < 0.01f ||
+            std::abs(at[(axis / 2 + 2) % 3] - std::round(at[(axis / 2 + 2) % 3])) < 0.01f)
+            continue;
+        const PlaceParts& parts = of[plain.own];
+        ASSERT_EQ(number, p.count + parts.first + parts.of_cell[static_cast<std::size_t>(u + 8 * v)]);
+        met.insert(number);
+        ++within;
+        // A turn stays within a cell of the part's own, and finds no patch that has parts.
+        const vec3 turn = shared::place_turn({static_cast<int>(within), 5}, 1);
+        const std::uint32_t other = shared::place_leaf_patch(place_leaves(tree, point.x, point.n, turn).other);
+        ASSERT_TRUE(other >= p.count || of[other].count == 0);
+        beside += other != number ? 1 : 0;
+        ASSERT_EQ(place_found(tree, point.x, point.n, vec3(0.0f), p.material[plain.own]).of_material, true);
+    }
+    EXPECT_GT(whole, 10000u);
+    EXPECT_GT(within, 5000u);
+    EXPECT_GT(met.size(), 300u);
+    EXPECT_GT(beside, 300u);
 }
 
 TEST(PlaceTree, WithoutPatchesNothingIsFound)

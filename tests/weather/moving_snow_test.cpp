@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tests/weather/street.h"
@@ -286,11 +288,111 @@ TEST(DriftingSnow, LiesStillInCalmAndWhereThereIsNoLeeAndWhenItIsWet)
     nothing_moves(thaw, true);
 }
 
+TEST(LeeShare, AddsUpToOneAndLiesWithinTwelveHeights)
+{
+    for (const double height_m : {0.3, 2.0}) {
+        double sum = 0.0, within = 0.0, most = 0.0, at_m = 0.0;
+        const double step_m = 0.001 * height_m;
+        for (double x = 0.5 * step_m; x < 60.0 * height_m; x += step_m) {
+            const double here = lee_share_1_m(x, height_m);
+            sum += here * step_m;
+            if (x < 12.0 * height_m) within += here * step_m;
+            if (here > most) {
+                most = here;
+                at_m = x;
+            }
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-5);
+        EXPECT_NEAR(within, 1.0 - 7.0 * std::exp(-6.0), 1e-5);
+        EXPECT_NEAR(at_m, 2.0 * height_m, 0.01 * height_m);
+    }
+    EXPECT_EQ(lee_share_1_m(0.0, 2.0), 0.0);
+    EXPECT_EQ(lee_share_1_m(std::numeric_limits<double>::infinity(), 2.0), 0.0);
+    EXPECT_EQ(lee_share_1_m(3.0, 0.0), 0.0);
+}
+
+// A long row of ground, 0.5 m a patch, behind a wall in the west: the first 40 m before it, the rest in its
+// lee, as slow in the wind everywhere there.
+PatchSet behind_a_wall(double height_m, std::size_t lee)
+{
+    Street street;
+    for (std::size_t i = 0; i < 80 + lee; ++i) {
+        WeatherPatch& p = street.add();
+        p.area_m2 = 0.5;
+        std::array<Upwind, kWindClasses> around{};
+        if (i >= 80) {
+            const auto behind_m = static_cast<float>(0.5 * (static_cast<double>(i - 80) + 0.5));
+            around[12] = {behind_m, static_cast<float>(height_m)};
+            for (int k = 0; k < kVisibleBits; ++k) {
+                const Direction d = visible_direction(k);
+                if (d.x < 0.0 && d.y < 0.5)
+                    p.visible[static_cast<std::size_t>(k >> 5)] &= ~(1u << (k & 31));
+            }
+        }
+        street.set.upwind.push_back(around);
+    }
+    return street.set;
+}
+
+TEST(DriftingSnow, LiesWithinSomeHeightsOfWhatStandsUpwind)
+{
+    const ForcingTable table = blizzard(14.0, 270.0);
+    for (const double height_m : {1.0, 2.0}) {
+        PatchWeather patches(table, behind_a_wall(height_m, 100), {}, table.time_us.front());
+        patches.go_to(table.time_us[38]);
+        double all = 0.0, within = 0.0, before = 0.0, most = 0.0;
+        std::size_t deepest = 0;
+        for (std::size_t i = 0; i < patches.patches(); ++i) {
+            const double here = came_from_elsewhere(patches.state(i)) * 0.5;
+            if (i < 80) {
+                before += here;
+                continue;
+            }
+            EXPECT_GT(here, -1e-9) << i;
+            all += here;
+            if (0.5 * static_cast<double>(i - 80) < 12.0 * height_m) within += here;
+            if (here > most) {
+                most = here;
+                deepest = i - 80;
+            }
+        }
+        EXPECT_GT(all, 10.0);
+        EXPECT_NEAR(all, -before, 1e-9 * all);
+        EXPECT_GT(within, 0.97 * all);
+        // Heaped most one to three heights behind it, and less at its foot.
+        const double deepest_m = 0.5 * (static_cast<double>(deepest) + 0.5);
+        EXPECT_GE(deepest_m, height_m);
+        EXPECT_LE(deepest_m, 3.0 * height_m);
+        EXPECT_LT(came_from_elsewhere(patches.state(80)) * 0.5, 0.6 * most);
+        const PatchLedger books = patches.ledger();
+        EXPECT_LE(std::abs(books.residual()), 1e-9 * books.fallen);
+    }
+}
+
+TEST(DriftingSnow, IsNoDeeperThanWhatItLiesBehindIsHigh)
+{
+    const ForcingTable table = blizzard(16.0, 270.0);
+    PatchWeather patches(table, behind_a_wall(0.3, 6), {}, table.time_us.front());
+    patches.go_to(table.time_us[21]);
+    std::vector<double> fallen_m;
+    for (std::size_t i = 0; i < patches.patches(); ++i)
+        fallen_m.push_back(diagnostics(patches.state(i).cell).snow_depth_m);
+    patches.go_to(table.time_us[38]);
+    double most = 0.0;
+    for (std::size_t i = 80; i < patches.patches(); ++i) {
+        const double depth_m = diagnostics(patches.state(i).cell).snow_depth_m;
+        EXPECT_LT(depth_m, std::max(0.31, fallen_m[i])) << i;
+        most = std::max(most, came_from_elsewhere(patches.state(i)));
+    }
+    EXPECT_GT(most, 5.0);
+}
+
 TEST(DriftingSnow, IsDefinedInAHurricane)
 {
-    for (const double wind : {30.0, 60.0}) {
-        const ForcingTable table = blizzard(wind, 270.0, -15.0);
-        PatchWeather patches(table, square(true), {}, table.time_us.front());
+    for (const double wind : {0.0, 30.0, 60.0, -60.0}) {
+        // Below 0: behind a wall of which the heights are known.
+        const ForcingTable table = blizzard(std::abs(wind), 270.0, -15.0);
+        PatchWeather patches(table, wind < 0.0 ? behind_a_wall(2.0, 60) : square(true), {}, table.time_us.front());
         patches.go_to(table.time_us[39] + 17 * 60 * 1000000LL);
         for (std::size_t i = 0; i < patches.patches(); ++i) {
             const CellState c = patches.state(i).cell;

@@ -99,6 +99,96 @@ TEST(PatchTaps, WetWhatLiesOnTheirWayAndNothingBeside)
     EXPECT_EQ(trickle.ledger().in_ponds, 0.0);
 }
 
+// As one_pond, 4 m2 wide.
+Ponds shaped_pond()
+{
+    Ponds p = one_pond();
+    p.shape = [](std::span<const double> v) { return std::vector<PondShape>{{v[0] / 4.0, 4.0}}; };
+    return p;
+}
+
+PatchWeather run_warm(const ForcingTable& table, double temp_k, double kg_s = 0.5)
+{
+    PatchParams params;
+    params.taps = {tap_at(table, kg_s)};
+    params.taps[0].temp_k = temp_k;
+    return PatchWeather(table, road(), params, table.time_us.front(), shaped_pond());
+}
+
+TEST(PatchTaps, WarmTheGroundOnTheirWayInFrostAndCoolItInSummer)
+{
+    const ForcingTable frost = steady(12, -8.0, 0.0, 1.0, 240);
+    PatchWeather warm = run_warm(frost, 283.15), colder = run_warm(frost, 274.15);
+    warm.go_to(frost.time_us[4]);
+    colder.go_to(frost.time_us[4]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_GT(warm.state(i).cell.ground_temp_c[0], warm.state(3).cell.ground_temp_c[0] + 3.0) << i;
+        EXPECT_GT(warm.state(i).cell.ground_temp_c[0], colder.state(i).cell.ground_temp_c[0] + 1.0) << i;
+        EXPECT_LT(warm.state(i).cell.ground_temp_c[0], 10.0) << i;
+    }
+    // Water that keeps coming keeps its way open; long after it has stopped what is left is ice.
+    EXPECT_GT(warm.state(0).cell.film, 0.9 * surface_preset("asphalt").film_capacity_kg_m2);
+    warm.go_to(frost.time_us[11]);
+    EXPECT_GT(warm.state(0).cell.film_ice + warm.state(0).cell.puddle_ice, 0.2);
+    EXPECT_LT(warm.state(0).cell.film, 0.01);
+
+    const ForcingTable summer = steady(12, 25.0, 0.0, 1.0, 240);
+    PatchWeather cool = run_warm(summer, 283.15);
+    cool.go_to(summer.time_us[4]);
+    EXPECT_LT(cool.state(0).cell.ground_temp_c[0], cool.state(3).cell.ground_temp_c[0] - 1.0);
+}
+
+TEST(PatchTaps, MeltTheIceOnTheirWay)
+{
+    // A trickle leaves ice in the first hours; a flood melts it.
+    const ForcingTable frost = steady(14, -6.0, 0.0, 1.0, 240);
+    PatchParams params;
+    params.taps = {tap_at(frost, 2e-4), tap_at(frost, 1.0)};
+    params.taps[0].temp_k = 273.15;
+    params.taps[1].from_us = frost.time_us[9];
+    params.taps[1].to_us = frost.time_us[11];
+    PatchWeather patches(frost, road(), params, frost.time_us.front(), shaped_pond());
+    const auto ice = [&] {
+        const CellState c = patches.state(0).cell;
+        return c.film_ice + c.crack_ice + c.puddle_ice;
+    };
+    patches.go_to(frost.time_us[9]);
+    EXPECT_GT(ice(), 0.1);
+    patches.go_to(frost.time_us[11]);
+    EXPECT_LT(ice(), 1e-6);
+    const PatchLedger books = patches.ledger();
+    EXPECT_LE(std::abs(books.residual()), 1e-9 * books.let_in);
+}
+
+TEST(PatchTaps, GiveTheirHeatToTheHollowAndItsBooksClose)
+{
+    const ForcingTable frost = steady(12, -8.0, 0.0, 1.0, 240);
+    PatchWeather warm = run_warm(frost, 293.15), cold = run_warm(frost, 273.15);
+    for (const std::size_t hour : {3u, 4u, 5u, 11u}) {
+        warm.go_to(frost.time_us[hour]);
+        cold.go_to(frost.time_us[hour]);
+        const TapHeat heat = warm.ledger().tap_heat;
+        EXPECT_NEAR(heat.let_in, warm.ledger().let_in * kWaterHeatCapacity * 20.0, 1e-6 * heat.let_in);
+        EXPECT_LE(std::abs(heat.residual()), 1e-9 * heat.let_in) << hour;
+        EXPECT_GT(heat.ground, 0.0);
+        EXPECT_GT(heat.ponds, 0.5 * heat.let_in);
+        EXPECT_GT(warm.pond_heat_j_kg()[0], cold.pond_heat_j_kg()[0]) << hour;
+        EXPECT_EQ(cold.ledger().tap_heat.let_in, 0.0);
+    }
+    // The cold one has ice by then.
+    EXPECT_LT(cold.pond_heat_j_kg()[0], 0.0);
+}
+
+TEST(HeatToGround, PassesNoFurtherThanWhereBothMeet)
+{
+    const double both = 3.0 * 2.0 / 5.0;
+    EXPECT_NEAR(heat_to_ground_j(10.0, -5.0, 3.0, 2.0, 1e9), 15.0 * both, 1e-9);
+    EXPECT_NEAR(heat_to_ground_j(10.0, -5.0, 3.0, 2.0, 1e-6), 15.0 * 1e-6, 1e-10);
+    EXPECT_NEAR(heat_to_ground_j(-5.0, 10.0, 2.0, 3.0, 1e9), -15.0 * both, 1e-9);
+    EXPECT_EQ(heat_to_ground_j(10.0, -5.0, 0.0, 2.0, 1.0), 0.0);
+    EXPECT_EQ(heat_to_ground_j(10.0, -5.0, 3.0, 2.0, 0.0), 0.0);
+}
+
 TEST(PatchTaps, SoakIntoALawn)
 {
     const ForcingTable dry = steady(12, 12.0, 0.0, 1.0, 240);
@@ -170,6 +260,8 @@ TEST(PatchTaps, WhatCannotBeUsedIsRefused)
     refused([](PatchTap& t) { t.flow_kg_s = -1.0; });
     refused([](PatchTap& t) { t.flow_kg_s = std::numeric_limits<double>::quiet_NaN(); });
     refused([](PatchTap& t) { t.flow_kg_s = std::numeric_limits<double>::infinity(); });
+    refused([](PatchTap& t) { t.temp_k = 273.0; });
+    refused([](PatchTap& t) { t.temp_k = std::numeric_limits<double>::quiet_NaN(); });
     refused([](PatchTap& t) { t.stretches[0].way = {4}; });
     refused([](PatchTap& t) { t.stretches[0].runs_to = kToPond | 1; });
     refused([](PatchTap& t) { t.stretches[0].runs_to = 2; });

@@ -28,4 +28,11 @@ double saltation_kg_m_s(double friction, double threshold, double air_density)
            (friction * friction - threshold * threshold);
 }
 
+double lee_share_1_m(double distance_m, double height_m)
+{
+    if (!(height_m > 0.0) || !(distance_m < 1e6 * height_m)) return 0.0;
+    const double heights = distance_m / height_m;
+    return heights * detail::exponential(-0.5 * heights) / (4.0 * height_m);
+}
+
 }  // namespace petrichor::weather

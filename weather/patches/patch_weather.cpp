@@ -22,7 +22,7 @@ constexpr std::size_t kMostCheckpoints = 6;
 constexpr std::size_t kCheckpointEvery = 24;  // steps, at first; doubled when there are too many
 constexpr double kBare_kg_m2 = 0.01;          // of snow: nothing
 constexpr double kDarkSky = 0.2;              // of the scout in the yard
-constexpr std::uint64_t kMagic = 0x3343544150525450ull;  // "PTRPATC3"
+constexpr std::uint64_t kMagic = 0x3443544150525450ull;  // "PTRPATC4"
 
 void check(const PatchParams& p)
 {
@@ -144,9 +144,12 @@ struct PatchWeather::Impl {
         }
         hash.add(static_cast<double>(plan.begin_us), static_cast<double>(plan.end_us),
                  params.north_deg, static_cast<double>(tables.set.links.size()));
+        for (const auto& around : tables.set.upwind)
+            for (const Upwind& one : around)
+                hash.add(static_cast<double>(one.distance_m), static_cast<double>(one.height_m));
         for (const double t : table[Field::AirTemp]) hash.add(t);
         for (const PatchTap& tap : params.taps) {
-            hash.add(tap.flow_kg_s, static_cast<double>(tap.from_us),
+            hash.add(tap.flow_kg_s, tap.temp_k, static_cast<double>(tap.from_us),
                      static_cast<double>(tap.to_us));
             for (const TapStretch& stretch : tap.stretches) {
                 hash.add(static_cast<double>(stretch.runs_to), stretch.spill_m);
@@ -374,6 +377,7 @@ PatchLedger PatchWeather::ledger() const
     books.in_ponds = m.ponds_kg(m.moment);
     books.out = m.moment.out_kg;
     books.let_in = m.moment.let_in_kg;
+    books.tap_heat = m.moment.tap_heat;
     books.lost_from_ponds = m.moment.pond_lost_kg;
     for (std::size_t i = 0; i < m.tables.twin; ++i) {
         const CellState c = m.cell(m.moment, i);
@@ -414,6 +418,7 @@ std::vector<std::byte> PatchWeather::save() const
     append(out, head, sizeof head);
     const double books[] = {m.live.out_kg, m.live.pond_lost_kg, m.live.let_in_kg, m.initially_kg};
     append(out, books, sizeof books);
+    append(out, &m.live.tap_heat, sizeof m.live.tap_heat);
     append_row(out, m.live.blocks);
     append_row(out, m.live.radiosity);
     append_row(out, m.live.hoar);
@@ -440,6 +445,7 @@ void PatchWeather::restore(std::span<const std::byte> saved)
     live.out_kg = books[0];
     live.pond_lost_kg = books[1];
     live.let_in_kg = books[2];
+    bytes.take(&live.tap_heat, sizeof live.tap_heat);
     bytes.take_row(live.blocks);
     bytes.take_row(live.radiosity);
     bytes.take_row(live.hoar);

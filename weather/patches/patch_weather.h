@@ -69,6 +69,7 @@ struct PatchLedger {
     double initially = 0.0, fallen = 0.0, let_in = 0.0;  // the last by taps
     double stored = 0.0, in_ponds = 0.0;
     double evaporated = 0.0, sublimated = 0.0, soaked = 0.0, out = 0.0, lost_from_ponds = 0.0;
+    TapHeat tap_heat;
     double residual() const
     {
         return (initially + fallen + let_in) -

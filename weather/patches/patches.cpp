@@ -79,6 +79,16 @@ void check_patches(const PatchSet& set)
         for (const float d : set.beside_m)
             if (!(d > 0.0f)) refuse("distance of neighbours", static_cast<double>(d), "above 0");
     }
+    if (!set.upwind.empty() && set.upwind.size() != set.patches.size())
+        refuse("what stands upwind", static_cast<double>(set.upwind.size()), "one a patch, or none");
+    for (const auto& around : set.upwind) {
+        for (const Upwind& one : around) {
+            if (!(one.distance_m >= 0.0f))
+                refuse("upwind distance_m", static_cast<double>(one.distance_m), "0 or more");
+            if (!(one.height_m >= 0.0f && std::isfinite(one.height_m)))
+                refuse("upwind height_m", static_cast<double>(one.height_m), "0 or more");
+        }
+    }
     for (const double soaks : set.pond_soaks_mm_h)
         if (!(soaks >= 0.0)) refuse("pond_soaks_mm_h", soaks, "0 or more");
 }

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_WEATHER_PATCHES_PATCHES_H
 #define PETRICHOR_WEATHER_PATCHES_PATCHES_H
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -50,6 +51,12 @@ struct WeatherPatch {
     double foot_height_m = 0.0;
 };
 
+/// What stands upwind of a patch in one direction: how far off, and how high over the patch.
+struct Upwind {
+    float distance_m = std::numeric_limits<float>::infinity();  ///< >= 0; infinite: nothing
+    float height_m = 0.0f;                                      ///< >= 0
+};
+
 /// All patches of a scene.
 struct PatchSet {
     std::vector<WeatherPatch> patches;
@@ -60,6 +67,8 @@ struct PatchSet {
     /// Neighbours that a heap of snow slides to, likewise; may be empty altogether.
     std::vector<std::uint32_t> beside_begin, beside;
     std::vector<float> beside_m;  ///< horizontal distance of each neighbour, > 0
+    /// Of each patch, by where the wind comes from, as wind_blocking; empty: nobody has looked.
+    std::vector<std::array<Upwind, kWindClasses>> upwind;
     std::uint32_t ponds = 0;      ///< how many there are
     /// Infiltration below each pond, mm/h; empty: 0.
     std::vector<double> pond_soaks_mm_h;

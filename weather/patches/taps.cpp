@@ -5,8 +5,17 @@
 #include <string>
 
 #include "base/error.h"
+#include "weather/physics/detail/portable_math.h"
 
 namespace petrichor::weather {
+
+double heat_to_ground_j(double water_c, double ground_c, double water_j_k, double ground_j_k,
+                        double contact_j_k)
+{
+    if (!(water_j_k > 0.0 && ground_j_k > 0.0)) return 0.0;
+    const double both = water_j_k * ground_j_k / (water_j_k + ground_j_k);
+    return (water_c - ground_c) * both * (1.0 - detail::exponential(-contact_j_k / both));
+}
 
 double let_in_kg(const PatchTap& tap, std::int64_t begin_us, std::int64_t end_us)
 {
@@ -26,6 +35,7 @@ void check_taps(const std::vector<PatchTap>& taps, const PatchSet& set)
         };
         require(tap.flow_kg_s >= 0.0 && std::isfinite(tap.flow_kg_s), "flow_kg_s", tap.flow_kg_s,
                 "0 or more");
+        require(tap.temp_k >= 273.15 && tap.temp_k <= 373.15, "temp_k", tap.temp_k, "in 273.15..373.15");
         require(tap.to_us >= tap.from_us, "to_us", static_cast<double>(tap.to_us),
                 "from_us or later");
         for (const TapStretch& stretch : tap.stretches) {

@@ -122,8 +122,9 @@ shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::Weat
 bool belongs(const PlaceWeather* place, const scene::Patches& patches)
 {
     return place && place->shape && place->shape->grid.levels > 0 &&
-           place->states.size() == std::size_t{patches.count} * PLACE_STATE_TEXELS &&
-           place->shape->table == patches.table;
+           place->states.size() >= std::size_t{patches.count} * PLACE_STATE_TEXELS &&
+           place->shape->table.size() >= patches.table.size() &&
+           std::equal(patches.table.begin(), patches.table.end(), place->shape->table.begin());
 }
 
 // Share of a patch that lies below the water of the hollow under it.

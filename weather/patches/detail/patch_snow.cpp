@@ -22,7 +22,8 @@ constexpr double kLeastUp = 0.5;                                 // a heap lies 
 // two hours in the mean.
 constexpr double kSlidesPerHour = 2.0;
 // Of drifts (ours): wind has its full load after so long a way over loose snow, and drops it over so
-// long a way in the lee. What is this dense or frozen into a crust stays, and drifts end this deep.
+// long a way in the lee of what nobody has measured. What is this dense or frozen into a crust stays, and drifts end this
+// deep, and no higher than what they lie behind.
 constexpr double kLoads_m = 100.0, kDrops_m = 5.0;
 constexpr double kLoose_kg_m3 = 300.0, kDriftDensity_kg_m3 = 300.0;
 constexpr double kDeepestDrift_m = 1.0;
@@ -203,6 +204,36 @@ void slide_snow(PatchLive& live, const PatchTables& t, double dt_s, PatchScratch
     if (slid) settle_heaps(live, t);
 }
 
+namespace {
+
+// What the wind drops on a patch with snow so deep, kg/m2, of a load of so many kg through each metre
+// across it.
+double dropped_kg_m2(const PatchTables& t, std::uint32_t patch, double wind_from_rad, double load_kg_m,
+                     double depth_m)
+{
+    const auto behind = [&](double share_1_m, double height_m) {
+        const double highest_m = std::min(height_m, kDeepestDrift_m);
+        const double room_m = std::max(0.0, highest_m - depth_m);
+        if (!(room_m > 0.0)) return 0.0;
+        return std::min(load_kg_m * share_1_m * room_m / highest_m, room_m * kDriftDensity_kg_m3);
+    };
+    if (t.set.upwind.empty()) return behind(1.0 / kDrops_m, kDeepestDrift_m);
+    const double turn = wind_from_rad / (2.0 * kPi);
+    const double at = (turn - std::floor(turn)) * kWindClasses;
+    const auto low = static_cast<std::size_t>(at) % kWindClasses;
+    const double part = at - std::floor(at);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Upwind& one = t.set.upwind[patch][(low + k) % kWindClasses];
+        const auto height_m = static_cast<double>(one.height_m);
+        const double share = lee_share_1_m(static_cast<double>(one.distance_m), height_m);
+        sum += (k == 0 ? 1.0 - part : part) * behind(share, height_m);
+    }
+    return sum;
+}
+
+}  // namespace
+
 void drift_snow(PatchLive& live, const PatchTables& t, const SkyStep& sky, PatchScratch& w)
 {
     const double dry_m_s = drift_threshold_m_s(sky.air_k, false);
@@ -236,9 +267,8 @@ void drift_snow(PatchLive& live, const PatchTables& t, const SkyStep& sky, Patch
             loose_kg -= w.drifts_kg[i];
         } else {
             const double slow = 1.0 - here / threshold;
-            const double depth = std::min(depth_of(spot) / kDeepestDrift_m, 1.0);
-            w.drifts_kg[i] = full_kg_m_s * dt_s / kDrops_m * slow * (1.0 - depth) * s.snow_holds *
-                             s.sky_share * patch.area_m2;
+            w.drifts_kg[i] = dropped_kg_m2(t, i, sky.wind_from_rad, full_kg_m_s * dt_s, depth_of(spot)) *
+                             slow * s.snow_holds * s.sky_share * patch.area_m2;
             room_kg += w.drifts_kg[i];
         }
     }

@@ -305,6 +305,8 @@ PatchScratch::PatchScratch(const PatchTables& t)
     drifts_kg.assign(t.set.patches.size(), 0.0);
     pond_in_m3.assign(t.set.ponds, 0.0);
     pond_loss_m.assign(t.set.ponds, 0.0);
+    pond_let_in_m3.assign(t.set.ponds, 0.0);
+    pond_let_in_j.assign(t.set.ponds, 0.0);
     pond_view.assign(t.set.ponds, {});
 }
 

@@ -20,6 +20,7 @@ struct PatchLive {
     std::vector<double> pond_m3;
     std::vector<double> pond_heat_j_kg;  // by pond
     double out_kg = 0.0, pond_lost_kg = 0.0, let_in_kg = 0.0;
+    TapHeat tap_heat;
     // Of the last step, for whoever asks: recomputed by the next.
     std::vector<float> run_on_kg_m2_s, rain_share, wind_factor, shortwave_w_m2, longwave_w_m2;
 };
@@ -65,6 +66,7 @@ struct PatchScratch {
     std::vector<double> arriving, splash_left;  // by patch
     std::vector<double> drifts_kg;              // by patch: taken below 0, room for it above
     std::vector<double> pond_in_m3, pond_loss_m;
+    std::vector<double> pond_let_in_m3, pond_let_in_j;  // of it by taps, and the heat of that
     // Of the patches that drain to a pond: their area, and means over it.
     struct PondView {
         double area_m2 = 0.0, light_w_m2 = 0.0, longwave_w_m2 = 0.0, wind = 0.0, snow_m = 0.0;

@@ -112,6 +112,7 @@ PatchTables make_patch_tables(PatchSet set, const PatchParams& params, const Sit
     twin.sky_share = 1.0;
     t.twin = static_cast<std::uint32_t>(set.patches.size());
     set.patches.push_back(twin);
+    if (!set.upwind.empty()) set.upwind.emplace_back();
     set.link_begin.resize(set.patches.size(), set.link_begin.empty() ? 0u : set.link_begin.back());
     set.link_begin.push_back(set.link_begin.back());
 

@@ -100,6 +100,70 @@ void show_run_on(PatchLive& live, const PatchTables& t, std::uint32_t patch, dou
 
 }  // namespace
 
+namespace {
+
+// A stream over ground: so wide, and so much heat passes (ours: water a few mm deep that tumbles).
+constexpr double kStream_m = 0.3, kStream_w_m2_k = 500.0;
+constexpr std::size_t kWarmedLayers = 3;  // of the ground, 7 cm: as deep as an hour reaches
+
+double capacity_of_j_k(const PatchTables& t, std::uint32_t patch)
+{
+    double thick_m = 0.0;
+    for (std::size_t k = 0; k < kWarmedLayers; ++k) thick_m += kGroundThickness_m[k];
+    return thick_m * t.set.kinds[t.set.patches[patch].kind].surface.heat_capacity_j_m3_k *
+           t.set.patches[patch].area_m2;
+}
+double ground_c(const Spot& spot)
+{
+    double sum = 0.0, thick_m = 0.0;
+    for (std::size_t k = 0; k < kWarmedLayers; ++k) {
+        sum += kGroundThickness_m[k] * spot.at(PETRICHOR_CELL_NUMBER(ground_temp_c) + k);
+        thick_m += kGroundThickness_m[k];
+    }
+    return sum / thick_m;
+}
+
+// Heat for the ground of a patch: it melts the ice on it first, then warms it. Below snow the surface is
+// the snow's.
+void warm_ground(PatchLive& live, const PatchTables& t, std::uint32_t patch, double heat_j)
+{
+    const Spot spot = spot_of(live, t, patch);
+    double left = heat_j;
+    const auto melt = [&](std::size_t water, std::size_t ice) {
+        if (!(left > 0.0)) return;
+        const double area = t.set.patches[patch].area_m2;
+        const double melted = std::min(spot.at(ice), left / (kLatentFusion * area));
+        spot.at(ice) -= melted;
+        spot.at(water) += melted;
+        left -= melted * kLatentFusion * area;
+    };
+    melt(PETRICHOR_CELL_NUMBER(film), PETRICHOR_CELL_NUMBER(film_ice));
+    melt(PETRICHOR_CELL_NUMBER(crack), PETRICHOR_CELL_NUMBER(crack_ice));
+    melt(PETRICHOR_CELL_NUMBER(puddle), PETRICHOR_CELL_NUMBER(puddle_ice));
+    const double warmer_k = left / capacity_of_j_k(t, patch);
+    for (std::size_t k = 0; k < kWarmedLayers; ++k)
+        spot.at(PETRICHOR_CELL_NUMBER(ground_temp_c) + k) += warmer_k;
+    if (!(spot.at(kIce) > 0.0)) spot.at(PETRICHOR_CELL_NUMBER(surface_temp_c)) += warmer_k;
+}
+
+// Water that runs over a patch and gives it heat by what it touches. Returns its temperature, C.
+double cooled_by_ground(PatchLive& live, const PatchTables& t, std::uint32_t patch, double kg,
+                        double water_c, double dt_s)
+{
+    const double area = t.set.patches[patch].area_m2;
+    const double touched_m2 = std::min(area, kStream_m * std::sqrt(area));
+    const double water_j_k = kg * kWaterHeatCapacity;
+    double heat = heat_to_ground_j(water_c, ground_c(spot_of(live, t, patch)), water_j_k,
+                                   capacity_of_j_k(t, patch), kStream_w_m2_k * touched_m2 * dt_s);
+    // What it loses at 0 C freezes where it comes to lie: by the patch's own weather.
+    heat = std::min(heat, water_j_k * water_c);
+    live.tap_heat.ground += heat;
+    warm_ground(live, t, patch, heat);
+    return water_c - heat / water_j_k;
+}
+
+}  // namespace
+
 void let_water_in(PatchLive& live, const PatchTables& t, const SkyStep& sky,
                   const std::vector<PatchTap>& taps, const Ponds& ponds, PatchScratch& w)
 {
@@ -107,13 +171,18 @@ void let_water_in(PatchLive& live, const PatchTables& t, const SkyStep& sky,
     if (!taps.empty() && ponds.level_m) level_m = ponds.level_m(live.pond_m3);
     for (const PatchTap& tap : taps) {
         double left = let_in_kg(tap, sky.begin_us, sky.end_us);
+        double water_c = tap.temp_k - kZeroCelsiusK;
         live.let_in_kg += left;
+        live.tap_heat.let_in += left * kWaterHeatCapacity * water_c;
         std::uint32_t runs_to = kRunsOut;
         for (const TapStretch& stretch : tap.stretches) {
             for (const std::uint32_t patch : stretch.way) {
                 if (!(left > 0.0)) break;
                 show_run_on(live, t, patch, left, sky.forcing.dt_s);
+                water_c = cooled_by_ground(live, t, patch, left, water_c, sky.forcing.dt_s);
+                const double before = left;
                 left = take_in(live, t, patch, left, sky.forcing.dt_s);
+                live.tap_heat.kept += (before - left) * kWaterHeatCapacity * water_c;
             }
             runs_to = stretch.runs_to;
             const std::size_t pond = runs_to & ~kToPond;
@@ -121,7 +190,16 @@ void let_water_in(PatchLive& live, const PatchTables& t, const SkyStep& sky,
                 static_cast<double>(level_m[pond]) < stretch.spill_m)
                 break;
         }
-        if (left > 0.0) pour_on(live, t, runs_to, left, w);
+        if (!(left > 0.0)) continue;
+        const double heat_j = left * kWaterHeatCapacity * water_c;
+        if (runs_to == kRunsOut) {
+            live.tap_heat.out += heat_j;
+        } else {
+            live.tap_heat.ponds += heat_j;
+            w.pond_let_in_m3[runs_to & ~kToPond] += left * 1e-3;
+            w.pond_let_in_j[runs_to & ~kToPond] += heat_j;
+        }
+        pour_on(live, t, runs_to, left, w);
     }
 }
 
@@ -215,7 +293,7 @@ double of(const std::vector<PondShape>& shape, std::size_t pond)
     return pond < shape.size() ? shape[pond].depth_m * kWaterDensity : 0.0;
 }
 
-// Water that has run in brings the warmth of the air; then the surface gains or loses.
+// Water that has run in brings the warmth of the air, that of taps its own; then the surface gains or loses.
 void freeze_ponds(PatchLive& live, const PatchTables& t, const SkyStep& sky, const Ponds& ponds,
                   PatchScratch& w)
 {
@@ -229,8 +307,12 @@ void freeze_ponds(PatchLive& live, const PatchTables& t, const SkyStep& sky, con
             continue;
         }
         const double all_kg = water_kg_m2 * shape[i].area_m2;
-        const double share = std::clamp(w.pond_in_m3[i] * kWaterDensity / all_kg, 0.0, 1.0);
-        const double warm = kWaterHeatCapacity * std::max(sky.air_k - kZeroCelsiusK, 0.0);
+        const double in_kg = w.pond_in_m3[i] * kWaterDensity;
+        const double by_taps_kg = w.pond_let_in_m3[i] * kWaterDensity;
+        const double share = std::clamp(in_kg / all_kg, 0.0, 1.0);
+        const double of_air = kWaterHeatCapacity * std::max(sky.air_k - kZeroCelsiusK, 0.0);
+        const double warm =
+            in_kg > 0.0 ? (std::max(in_kg - by_taps_kg, 0.0) * of_air + w.pond_let_in_j[i]) / in_kg : 0.0;
         heat += share * (warm - heat);
         if (w.pond_view[i].area_m2 > 0.0)
             heat = step_pond_heat(heat, water_kg_m2, air_over(w.pond_view[i], sky),
@@ -265,7 +347,8 @@ void step_ponds(PatchLive& live, const PatchTables& t, const SkyStep& sky, const
         for (const double in : w.pond_in_m3) live.out_kg += in * 1e3;
     }
     if (ponds.shape) freeze_ponds(live, t, sky, ponds, w);
-    std::fill(w.pond_in_m3.begin(), w.pond_in_m3.end(), 0.0);
+    for (auto* row : {&w.pond_in_m3, &w.pond_let_in_m3, &w.pond_let_in_j})
+        std::fill(row->begin(), row->end(), 0.0);
 }
 
 }  // namespace petrichor::weather::detail
