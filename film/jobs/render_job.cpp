@@ -272,6 +272,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
                 worker.environment = one.frame.environment;
             }
             worker.facts.exposure_by = meter.expose(worker.renderer, one.job, worker.what.frame);
+            if (pending.size() - i <= workers.size()) worker.renderer.end_metering();
             if (plan.count() > 1) {
                 worker.result = {};
                 make_in_tiles(worker, one, sequence, request, plan, writer.scratch());
@@ -410,6 +411,9 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
         made->probes =
             prepare_probes(sequence.scene, *made, scenario.render.probes, scenario.folder, transport,
                            report.notes);
+        // Rays alone start from them.
+        made->patches.samples = {};
+        made->near.samples = {};
         patches = made;
     } else if (sequence.scenario.render.image_based_light) {
         std::string why = "([render] indirect)";
