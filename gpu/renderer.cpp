@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "base/error.h"
 #include "gpu/build_frame.h"
@@ -373,6 +374,7 @@ struct Renderer::Impl {
     ProbeTable probes;
     TargetSet pictures;  ///< of the frames that are asked for
     TargetSet metering;  ///< of the small ones that tell their exposure
+    bool metering_ended = false;  ///< before the next picture
     GpuPlace place;
     SeenTriangles triangles;
     VertexLight vertex_light;
@@ -587,6 +589,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, Targ
         scene->update_draw_rows(device);
         FrameGraph graph = build_frame(frame, sun, resources, aov_groups, range, result.falling);
         graph_text += graph.describe();
+        if (std::exchange(metering_ended, false)) pipelines.keep_only(graph.pipelines());
         for (const PassTime& pass : graph.execute(device, pipelines, descriptors))
             result.passes.push_back(pass);
     }
@@ -665,6 +668,12 @@ MeterReading Renderer::meter(const Frame& frame, MeterOf what)
                                        .snow = snow});
     }
     return reading;
+}
+
+void Renderer::end_metering()
+{
+    impl_->metering = TargetSet(impl_->device);
+    impl_->metering_ended = true;
 }
 
 const DeviceInfo& Renderer::device() const

@@ -93,6 +93,9 @@ public:
     /// of the frame alone, as render() is. `exposure` and `aovs` of the frame do not count.
     MeterReading meter(const Frame& frame, MeterOf what = MeterOf::Exposure);
 
+    /// No more frames are metered. What only they needed, most of all pipelines, is given up: 4 MiB each on a CPU.
+    void end_metering();
+
     const DeviceInfo& device() const;
     /// Messages of the validation layer since construction (severity warning and above).
     const std::vector<std::string>& validation_messages() const;

@@ -283,6 +283,7 @@ Workload scenario_workload(const RenderBenchOptions& options)
         meter.expose(work.renderer, other, *work.other);
     }
     meter.expose(work.renderer, job, work.frame);
+    work.renderer.end_metering();
     return work;
 }
 

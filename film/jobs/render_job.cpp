@@ -277,6 +277,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
             if (const auto tracks = tracks_of.find(one.job.variant); tracks != tracks_of.end())
                 worker.renderer.set_tracks(tracks->second);
             worker.facts.exposure_by = meter.expose(worker.renderer, one.job, worker.what.frame);
+            if (pending.size() - i <= workers.size()) worker.renderer.end_metering();
             if (plan.count() > 1) {
                 worker.result = {};
                 make_in_tiles(worker, one, sequence, request, plan, writer.scratch());
@@ -415,6 +416,9 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
         made->probes =
             prepare_probes(sequence.scene, *made, scenario.render.probes, scenario.folder, transport,
                            report.notes);
+        // Rays alone start from them.
+        made->patches.samples = {};
+        made->near.samples = {};
         patches = made;
     } else if (sequence.scenario.render.image_based_light) {
         std::string why = "([render] indirect)";

@@ -315,16 +315,21 @@ void FrameGraph::read_back(const std::vector<GpuBuffer*>& buffers)
     add(std::move(pass));
 }
 
+std::vector<ComputeDesc> FrameGraph::pipelines() const
+{
+    std::vector<ComputeDesc> wanted;
+    for (const Pass& pass : passes_) wanted.insert(wanted.end(), pass.pipelines.begin(), pass.pipelines.end());
+    return wanted;
+}
+
 std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& pipelines,
                                           DescriptorArena& descriptors)
 {
     const auto queries = static_cast<std::uint32_t>(passes_.size() + 1);
     const QueryPoolHandle pool = make_query_pool(device, queries);
-    std::vector<ComputeDesc> wanted;
-    for (const Pass& pass : passes_) {
-        wanted.insert(wanted.end(), pass.pipelines.begin(), pass.pipelines.end());
-    }
-    pipelines.prepare(wanted);
+    // A driver that compiles at first use takes memory for it: pass by pass what that leaves free is given back before the
+    // next one takes its own.
+    const bool apart = pipelines.prepare(this->pipelines()) >= PipelineCache::kMany || device.passes_apart();
     const auto stamp = [&](VkCommandBuffer commands, std::size_t query) {
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool.get(),
                              static_cast<std::uint32_t>(query));
@@ -345,13 +350,19 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
     };
     std::vector<double> cpu_ms(passes_.size(), 0.0);
     bool many_made = false;
-    if (device.passes_apart()) {
+    const auto settle = [&] {
+        if (!pipelines.made_many()) return;
+        many_made = true;
+        give_back_free_memory();
+    };
+    if (apart) {
         device.run([&](VkCommandBuffer commands) { stamp(commands, 0); });
         for (std::size_t i = 0; i < passes_.size(); ++i) {
             const std::clock_t before = std::clock();
             device.run([&](VkCommandBuffer commands) {
                 record(commands, passes_[i]);
                 stamp(commands, i + 1);
+                settle();
             });
             cpu_ms[i] = 1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
         }
@@ -362,11 +373,10 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
                 record(commands, passes_[i]);
                 stamp(commands, i + 1);
             }
-            many_made = pipelines.made_many();
-            if (many_made) give_back_free_memory();
+            settle();
         });
-        if (many_made) give_back_free_memory();
     }
+    if (many_made) give_back_free_memory();
     std::vector<std::uint64_t> ticks(queries);
     check(vkGetQueryPoolResults(device.handle(), pool.get(), 0, queries,
                                 ticks.size() * sizeof(std::uint64_t), ticks.data(),
@@ -379,7 +389,7 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         const auto [slot, is_new] = by_name.try_emplace(passes_[i].name, times.size());
         if (is_new) times.push_back({passes_[i].name});
-        times[slot->second].cpu_milliseconds += cpu_ms[i];
+        if (device.passes_apart()) times[slot->second].cpu_milliseconds += cpu_ms[i];
         times[slot->second].milliseconds += static_cast<double>(ticks[i + 1] - ticks[i]) * to_ms;
     }
     return times;

@@ -170,10 +170,12 @@ public:
     void read_back(const std::vector<GpuBuffer*>& buffers);
 
     /// Records all passes into one command buffer, submits, waits; each pass by itself with
-    /// RendererOptions::passes_apart. Times are summed by pass name.
+    /// RendererOptions::passes_apart, and where many pipelines are to be made. Times are summed by pass name.
     std::vector<PassTime> execute(const Device& device, PipelineCache& pipelines,
                                   DescriptorArena& descriptors);
     bool empty() const { return passes_.empty(); }
+    /// The compute pipelines that its passes have said they will ask for.
+    std::vector<ComputeDesc> pipelines() const;
     /// One line a distinct pass: its name, what it reads, what it writes.
     std::string describe() const;
 

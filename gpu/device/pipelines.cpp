@@ -214,9 +214,17 @@ void PipelineCache::end_picture(std::uint64_t kept)
     std::erase_if(pipelines_, [&](const auto& entry) { return entry.second.asked_by + kept < picture_; });
 }
 
+void PipelineCache::keep_only(const std::vector<ComputeDesc>& wanted)
+{
+    std::set<std::string> keys;
+    for (const ComputeDesc& desc : wanted) keys.insert(key_of(desc.shader, desc.specialization));
+    std::erase_if(pipelines_, [&](const auto& entry) {
+        return entry.second.compute && entry.second.asked_by < picture_ && !keys.contains(entry.first);
+    });
+}
+
 bool PipelineCache::made_many()
 {
-    constexpr std::size_t kMany = 8;
     return std::exchange(made_, 0) >= kMany;
 }
 
@@ -302,7 +310,7 @@ PipelineCache::PipelineCache(const Device& device) : device_(&device)
 }
 PipelineCache::~PipelineCache() = default;
 
-void PipelineCache::prepare(const std::vector<ComputeDesc>& wanted)
+std::size_t PipelineCache::prepare(const std::vector<ComputeDesc>& wanted)
 {
     ahead_ = nullptr;
     std::vector<std::unique_ptr<Ahead::Task>> tasks;
@@ -319,7 +327,9 @@ void PipelineCache::prepare(const std::vector<ComputeDesc>& wanted)
     std::stable_sort(tasks.begin(), tasks.end(), [this](const auto& a, const auto& b) {
         return code(a->desc.shader).size() > code(b->desc.shader).size();
     });
-    if (!tasks.empty()) ahead_ = std::make_unique<Ahead>(*this, std::move(tasks));
+    const std::size_t missing = tasks.size();
+    if (missing > 0) ahead_ = std::make_unique<Ahead>(*this, std::move(tasks));
+    return missing;
 }
 
 std::unique_ptr<Pipeline> PipelineCache::make_compute(const ComputeDesc& desc,
@@ -348,6 +358,7 @@ const Pipeline& PipelineCache::compute(const std::string& shader,
     const std::string key = key_of(shader, specialization);
     Entry& entry = pipelines_[key];
     entry.asked_by = picture_;
+    entry.compute = true;
     std::unique_ptr<Pipeline>& slot = entry.pipeline;
     if (slot) return *slot;
     ++made_;

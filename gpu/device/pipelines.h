@@ -83,8 +83,8 @@ public:
     explicit PipelineCache(const Device& device);
     ~PipelineCache();
 
-    /// What compute() will soon be asked for: threads of its own begin to make what is missing.
-    void prepare(const std::vector<ComputeDesc>& wanted);
+    /// What compute() will soon be asked for: threads of its own begin to make what is missing. How many those are.
+    std::size_t prepare(const std::vector<ComputeDesc>& wanted);
     const Pipeline& compute(const std::string& shader,
                             const std::vector<Specialization>& specialization,
                             const std::vector<BindingTypes>& sets);
@@ -94,10 +94,14 @@ public:
     /// The picture that asked for pipelines is done: those that none of the last `kept` asked for are given up. Nothing
     /// that was recorded with one may still run.
     void end_picture(std::uint64_t kept);
+    /// Gives up the compute pipelines that the picture at work has not asked for and that are not `wanted` either.
+    /// Nothing that was recorded with one may still run.
+    void keep_only(const std::vector<ComputeDesc>& wanted);
     std::size_t size() const { return pipelines_.size(); }
     /// Many pipelines were made since this was asked last: their making, and the driver's at their first use, leave
     /// free memory between what is kept.
     bool made_many();
+    static constexpr std::size_t kMany = 8;
     VkDescriptorSetLayout set_layout(const BindingTypes& types);
 
 private:
@@ -114,6 +118,7 @@ private:
     struct Entry {
         std::unique_ptr<Pipeline> pipeline;
         std::uint64_t asked_by = 0;  // the last picture
+        bool compute = false;
     };
     std::map<std::string, Entry> pipelines_;
     std::uint64_t picture_ = 0;

@@ -3,11 +3,13 @@
 #include "gpu/device/graph.h"
 #include "formulas/light/cube_quads.h"
 #include "gpu/frame/pixel_list.h"
+#include "gpu/frame/pixel_list_io.h"
 #include "gpu/passes/glare/glare.h"
 #include "gpu/passes/sky/scattered_again.h"
 #include "gpu/passes/sky/sky_io.h"
 #include "gpu/passes/surface_maps/surface_maps.h"
 
+#include <array>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
@@ -56,6 +58,18 @@ protected:
                 .constants = {},
                 .bindings = {{0, from}, {1, to}},
                 .push = PushBlock(0),
+                .groups = {}};
+    }
+
+    // A small one: word 0 of `to` is a 64th of that of `from`, rounded up, the next two are 1. Each constant has a pipeline
+    // of its own.
+    static ComputePass sixty_fourth(GpuBuffer& from, GpuBuffer& to, std::uint32_t constant)
+    {
+        return {.name = "lists",
+                .shader = "list_groups.comp",
+                .constants = {{7, constant}},
+                .bindings = {{LIST_GROUPS_LIST, storage_buffer(from)}, {LIST_GROUPS_GROUPS, storage_buffer(to)}},
+                .push = {},
                 .groups = {}};
     }
 
@@ -473,6 +487,67 @@ TEST_F(GraphTest, PipelinesThatNoPictureAsksForAreGivenUp)
     EXPECT_EQ(pipelines->size(), 2u);
     for (int i = 0; i < 5; ++i) draw(true);
     EXPECT_EQ(pipelines->size(), 2u);
+    expect_silence();
+}
+
+// What is asked for no more goes before what is new comes; what the next graph has said it will ask for stays.
+TEST_F(GraphTest, PipelinesThatNobodyWantsAreGivenUpAtOnce)
+{
+    const auto from = numbers("from");
+    const auto to = numbers("to");
+    const auto graph_of = [&](std::uint32_t constant) {
+        FrameGraph graph;
+        graph.add(sixty_fourth(*from, *to, constant));
+        return graph;
+    };
+    for (const std::uint32_t constant : {1u, 2u, 3u}) {
+        FrameGraph graph = graph_of(constant);
+        graph.execute(*device, *pipelines, *descriptors);
+        pipelines->end_picture(8);
+    }
+    EXPECT_EQ(pipelines->size(), 3u);
+    FrameGraph sky = graph_of(1);  // of the picture at work
+    sky.execute(*device, *pipelines, *descriptors);
+    FrameGraph next = graph_of(3);
+    pipelines->keep_only(next.pipelines());
+    EXPECT_EQ(pipelines->size(), 2u);
+    next.execute(*device, *pipelines, *descriptors);
+    EXPECT_EQ(pipelines->size(), 2u) << "made again";
+    expect_silence();
+}
+
+// Where many pipelines are new each pass is submitted by itself. It runs behind the one before all the same, and its
+// time counts.
+TEST_F(GraphTest, ManyNewPipelinesDoAsFewDo)
+{
+    constexpr std::uint32_t kPasses = static_cast<std::uint32_t>(PipelineCache::kMany) + 2;
+    std::vector<std::unique_ptr<GpuBuffer>> chain;
+    FrameGraph graph;
+    for (std::uint32_t i = 0; i <= kPasses; ++i) chain.push_back(numbers("link" + std::to_string(i)));
+    const std::uint32_t all = 0x80000000u;
+    std::memcpy(chain[0]->mapped, &all, sizeof(all));
+    for (std::uint32_t i = 0; i < kPasses; ++i) {
+        ComputePass pass = sixty_fourth(*chain[i], *chain[i + 1], i);
+        pass.name += std::to_string(i);
+        graph.add(pass);
+    }
+    graph.read_back({chain.back().get()});
+    const auto expect_ones = [&] {
+        std::array<std::uint32_t, 3> last{};
+        std::memcpy(last.data(), chain.back()->mapped, sizeof(last));
+        EXPECT_EQ(last, (std::array<std::uint32_t, 3>{1, 1, 1}));
+    };
+    const auto first = graph.execute(*device, *pipelines, *descriptors);
+    expect_ones();
+    EXPECT_EQ(pipelines->size(), kPasses);
+    for (std::size_t i = 1; i < chain.size(); ++i) std::fill_n(chain[i]->mapped, chain[i]->size, std::byte{0});
+    const auto again = graph.execute(*device, *pipelines, *descriptors);
+    expect_ones();
+    ASSERT_EQ(first.size(), again.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_EQ(first[i].name, again[i].name);
+        EXPECT_EQ(first[i].cpu_milliseconds, 0.0) << "only where passes are asked to run apart";
+    }
     expect_silence();
 }
 

@@ -259,6 +259,23 @@ TEST_F(MeterTest, IsAFunctionOfTheFrameAlone)
     EXPECT_EQ(renderer->render(shown).display, fresh.render(shown).display);
 }
 
+// What it had made is given up then; it may be asked for again.
+TEST_F(MeterTest, PicturesAreTheSameOnceItHasEnded)
+{
+    renderer->load(grey_floor(), {});
+    Frame shown = lamp_at_night(100.0f);
+    shown.settings.exposure = 0.05f;
+    shown.weather.rain = 0.7f;
+    shown.weather.flood_puddles = 0.5f;
+    const auto metered = renderer->meter(lamp_at_night(100.0f)).ev100;
+    const auto before = renderer->render(shown).display;
+    renderer->end_metering();
+    EXPECT_EQ(renderer->render(shown).display, before);
+    EXPECT_EQ(renderer->render(shown).display, before);
+    EXPECT_EQ(renderer->meter(lamp_at_night(100.0f)).ev100, metered);
+    EXPECT_EQ(renderer->render(shown).display, before);
+}
+
 TEST_F(MeterTest, TheColourOfTheLightIsFoundWhateverItFallsOn)
 {
     // Green grass and red brick in the light of one warm lamp: the lamp's colour, neither of theirs.
