@@ -10,6 +10,7 @@
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/plain_table.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/text.h"
 #include "weather/readers/units.h"
 
@@ -368,16 +369,6 @@ std::string_view code_of_row(const Header& h, const std::vector<std::string_view
     return {};
 }
 
-// Where wind comes from in words, degrees: N, NNE, .. NNW.
-std::optional<double> compass_deg(std::string_view text)
-{
-    constexpr const char* kPoints[] = {"n", "nne", "ne", "ene", "e", "ese", "se", "sse",
-                                       "s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw"};
-    const std::string low = lower(text);
-    for (int i = 0; i < 16; ++i)
-        if (low == kPoints[i]) return 22.5 * i;
-    return std::nullopt;
-}
 bool is_no_direction(std::string_view text)
 {
     const std::string low = lower(text);
