@@ -104,26 +104,26 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                             return from && to && *to > *from ? from : std::nullopt;
                         },
                         .lacks = "has no times of its beginning and end"};
-    for_dated_rows(lines, how, rows, [&](std::int64_t time_us, const Cells& cells) {
-        const double seconds = static_cast<double>(end_of(cells).value() - time_us) * 1e-6;
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        const double seconds = static_cast<double>(end_of(row.cells).value() - row.time_us) * 1e-6;
         if (!told) {
             told = true;
             for (const Column& c : columns) rows.holds_after(c.quantity->field, 0.5 * seconds);
             if (deficit != TableHeader::kNone) rows.holds_after(Field::RelHumidity, 0.5 * seconds);
         }
-        if (!rows.begin_row(time_us, lines.number())) return;
+        if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
-            const auto cell = cell_of(cells, c.at);
+            const auto cell = cell_of(row.cells, c.at);
             auto value = number_or_none(cell);
             if (value && *value <= -9990.0) value.reset();
             put_cell({{}, c.quantity->field, c.quantity->scale, c.quantity->offset}, cell, value,
                      rows);
         }
         if (precip != TableHeader::kNone)
-            put_value(Field::Precip, value_of(cell_of(cells, precip)) / seconds, rows);
+            put_value(Field::Precip, value_of(cell_of(row.cells, precip)) / seconds, rows);
         if (deficit != TableHeader::kNone) {
-            const double hpa = value_of(cell_of(cells, deficit)),
-                         air_k = value_of(cell_of(cells, air)) + kZeroCelsiusK;
+            const double hpa = value_of(cell_of(row.cells, deficit)),
+                         air_k = value_of(cell_of(row.cells, air)) + kZeroCelsiusK;
             if (std::isnan(hpa) || !(air_k > 173.15 && air_k < 333.15))
                 rows.missing(Field::RelHumidity);
             else

@@ -425,22 +425,10 @@ void read_cell(std::string_view text, std::size_t column, const ColumnMeaning& m
 }
 
 // Rows that had to be put in order, rows that stand there twice, and clocks that jump.
-void note_order(const RowOrder& order, const std::vector<TimedRow>& rows, bool zoned,
+void note_clock(const RowOrder& order, const std::vector<TimedRow>& rows, bool zoned,
                 RowCollector& out)
 {
-    if (order.moved > 0) {
-        out.note(ReadNote::Kind::Time, 0, "time",
-                 order.newest_first ? std::string("the newest row stands first: read from the end")
-                                    : std::to_string(order.moved) +
-                                          (order.moved == 1 ? " row stands" : " rows stand") +
-                                          " behind a later one: read in the order of their times");
-    }
-    if (order.repeated > 0) {
-        out.note(ReadNote::Kind::Time, 0, "time",
-                 std::to_string(order.repeated) +
-                     (order.repeated == 1 ? " row stands" : " rows stand") +
-                     " in the file again, letter by letter: read once");
-    }
+    note_order(order, out);
     if (zoned) return;
     const SummerTime summer = summer_time(rows);
     if (summer.skipped.empty() && summer.repeated.empty()) return;
@@ -508,7 +496,7 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
         }
         set_from_parts(rows, parts);
     }
-    note_order(order, table_rows, zoned, rows);
+    note_clock(order, table_rows, zoned, rows);
     const auto& counts = seen.counts;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         if (!counts[i].counts_up()) continue;

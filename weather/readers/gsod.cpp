@@ -54,35 +54,35 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     const DatedRows how{
         .time_of = [&](const Cells& cells) { return us_from_iso(cell_of(cells, date)); },
         .lacks = "has no DATE"};
-    for_dated_rows(lines, how, rows, [&](std::int64_t time_us, const Cells& cells) {
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         if (first.empty()) {
-            first = std::string(cell_of(cells, station));
+            first = std::string(cell_of(row.cells, station));
             Site& site = rows.site();
-            site.latitude_deg = to_number(cell_of(cells, latitude)).value_or(kMissing);
-            site.longitude_deg = to_number(cell_of(cells, longitude)).value_or(kMissing);
-            site.elevation_m = to_number(cell_of(cells, elevation)).value_or(kMissing);
-            site.name = shown(cell_of(cells, name));
+            site.latitude_deg = to_number(cell_of(row.cells, latitude)).value_or(kMissing);
+            site.longitude_deg = to_number(cell_of(row.cells, longitude)).value_or(kMissing);
+            site.elevation_m = to_number(cell_of(row.cells, elevation)).value_or(kMissing);
+            site.name = shown(cell_of(row.cells, name));
         }
-        if (cell_of(cells, station) != first) {
+        if (cell_of(row.cells, station) != first) {
             others = true;
             return;
         }
         if (days.size() >= kMostDays) return;
-        DayOfWeather& day = days[time_us];
-        day.line = lines.number();
+        DayOfWeather& day = days[row.time_us];
+        day.line = row.line;
         for (std::size_t i = 0; i < at.size(); ++i) {
             const Column& c = kColumns[i];
-            double value = odd.number_of(cell_of(cells, at[i]), lines.number(), c.name);
+            double value = odd.number_of(cell_of(row.cells, at[i]), row.line, c.name);
             if (std::isnan(value) || value == c.missing) continue;
             if (c.value == &DayOfWeather::pressure_pa && value < 100.0) value += 1000.0;
             day.*c.value = value * c.scale + c.offset;
         }
         // "I": the station told no amount, and may have had one; .00 stands there all the same.
-        if (trimmed(cell_of(cells, amount_kind)) == "I" && day.precip_mm == 0.0) {
+        if (trimmed(cell_of(row.cells, amount_kind)) == "I" && day.precip_mm == 0.0) {
             day.precip_mm = kMissing;
             ++no_report;
         }
-        std::string six(trimmed(cell_of(cells, weather)));
+        std::string six(trimmed(cell_of(row.cells, weather)));
         six.insert(0, six.size() < 6 ? 6 - six.size() : 0, '0');  // programs drop the zeros before
         const bool rain = six[1] == '1', snow = six[2] == '1';
         if (day.precip_mm > 0.0 && (rain || snow)) day.snow_share = rain ? (snow ? 0.5 : 0.0) : 1.0;

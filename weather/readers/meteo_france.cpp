@@ -113,28 +113,28 @@ void read_hours(std::string_view text, RowCollector& rows, const ReadOptions& op
     for (const Field f : {Field::Shortwave, Field::Diffuse, Field::Longwave}) rows.means_of_past(f);
     std::size_t doubtful = 0;
     const DatedRows how = rows_of_station(chosen, station, stamp);
-    for_dated_rows(lines, how, rows, [&](std::int64_t time_us, const Cells& cells) {
-        if (!rows.begin_row(time_us, lines.number())) return;
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
         Site& site = rows.site();
         if (std::isnan(site.latitude_deg)) {
-            site.latitude_deg = to_number(cell_of(cells, lat)).value_or(kMissing);
-            site.longitude_deg = to_number(cell_of(cells, lon)).value_or(kMissing);
-            site.elevation_m = to_number(cell_of(cells, height)).value_or(kMissing);
-            site.name = shown(cell_of(cells, name));
+            site.latitude_deg = to_number(cell_of(row.cells, lat)).value_or(kMissing);
+            site.longitude_deg = to_number(cell_of(row.cells, lon)).value_or(kMissing);
+            site.elevation_m = to_number(cell_of(row.cells, height)).value_or(kMissing);
+            site.name = shown(cell_of(row.cells, name));
         }
         for (std::size_t i = 0; i < value_at.size(); ++i) {
             if (value_at[i] == TableHeader::kNone) continue;
             const TableColumn& c = kHours[i];
-            const auto cell = trimmed(cell_of(cells, value_at[i]));
+            const auto cell = trimmed(cell_of(row.cells, value_at[i]));
             auto value = number_or_none(cell);
-            if (trimmed(cell_of(cells, quality_at[i])) == "2") {
+            if (trimmed(cell_of(row.cells, quality_at[i])) == "2") {
                 doubtful += value && !std::isnan(*value);
                 value.reset();
             }
             put_cell(c, cell, value, rows);
         }
         // 9 oktas: the sky is not to be seen.
-        if (const auto n = to_number(cell_of(cells, oktas)); n && *n >= 0.0 && *n <= 9.0)
+        if (const auto n = to_number(cell_of(row.cells, oktas)); n && *n >= 0.0 && *n <= 9.0)
             rows.set(Field::Cloud, std::min(*n / 8.0, 1.0));
     });
     if (doubtful)

@@ -104,13 +104,13 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                 (who == chosen ? any : others) = true;
                 return who != chosen;
             }};
-    for_dated_rows(lines, how, rows, [&](std::int64_t time_us, const Cells& cells) {
-        if (!rows.begin_row(time_us, lines.number())) return;
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
             TableColumn column{{}, c.quantity->field, c.quantity->scale, c.quantity->offset};
             if (column.field == Field::Precip && c.hour) column.scale = 1.0 / 3600.0;
             if (column.field == Field::Precip && !c.hour) column.fell_hours = 1.0 / 6.0;
-            const auto cell = trimmed(cell_of(cells, c.at));
+            const auto cell = trimmed(cell_of(row.cells, c.at));
             put_cell(column, cell, number_or_none(cell, {"-"}), rows);
         }
     });

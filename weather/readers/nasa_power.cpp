@@ -212,11 +212,11 @@ void read_csv(std::string_view text, RowCollector& rows, const ReadOptions& opti
             {*y, static_cast<int>(*m), static_cast<int>(*d), static_cast<int>(*h), 0, 0.0});
     };
     const DatedRows how{.time_of = time_of, .lacks = "is not a year, month, day and hour"};
-    for_dated_rows(lines, how, rows, [&](std::int64_t time_us, const Cells& cells) {
-        if (!rows.begin_row(time_us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number()))
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us - static_cast<std::int64_t>(zone_h * 3600e6), row.line))
             return;
         for (const Column& c : meaning.columns) {
-            const auto cell = cell_of(cells, c.at);
+            const auto cell = cell_of(row.cells, c.at);
             auto value = number_or_none(cell);
             if (value == fill) value.reset();
             put_cell({{}, c.field, c.scale, c.offset}, cell, value, rows);

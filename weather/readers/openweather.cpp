@@ -144,17 +144,17 @@ void read_csv(std::string_view text, RowCollector& rows, const ReadOptions& opti
                             return *seconds * 1000000;
                         },
                         .lacks = "has no dt"};
-    for_dated_rows(lines, how, rows, [&](std::int64_t time_us, const Cells& cells) {
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         // One file may hold several places, one behind the other.
-        std::string where(cell_of(cells, lat));
-        where.append(" ").append(cell_of(cells, lon));
+        std::string where(cell_of(row.cells, lat));
+        where.append(" ").append(cell_of(row.cells, lon));
         if (place.empty()) {
             place = where;
             Site& site = rows.site();
-            site.latitude_deg = to_number(cell_of(cells, lat)).value_or(kMissing);
-            site.longitude_deg = to_number(cell_of(cells, lon)).value_or(kMissing);
-            site.name = shown(cell_of(cells, city));
-            if (const auto s = to_number(cell_of(cells, zone)); s && std::abs(*s) <= 14.0 * 3600.0)
+            site.latitude_deg = to_number(cell_of(row.cells, lat)).value_or(kMissing);
+            site.longitude_deg = to_number(cell_of(row.cells, lon)).value_or(kMissing);
+            site.name = shown(cell_of(row.cells, city));
+            if (const auto s = to_number(cell_of(row.cells, zone)); s && std::abs(*s) <= 14.0 * 3600.0)
                 site.utc_offset_h = *s / 3600.0;
         }
         if (where != place) {
@@ -162,9 +162,9 @@ void read_csv(std::string_view text, RowCollector& rows, const ReadOptions& opti
             return;
         }
         Hour& h = hours.emplace_back();
-        h.time_us = time_us;
-        h.line = lines.number();
-        numbers.read(cells, h.line, h);
+        h.time_us = row.time_us;
+        h.line = row.line;
+        numbers.read(row.cells, h.line, h);
     });
     if (others)
         rows.note(ReadNote::Kind::Warning, 0, "station",

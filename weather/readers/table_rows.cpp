@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "weather/readers/plain_table.h"
 
 namespace petrichor::weather {
 namespace {
@@ -15,30 +16,39 @@ constexpr std::size_t kMostTold = 5;
 }  // namespace
 
 void for_dated_rows(Lines& lines, const DatedRows& how, RowCollector& rows,
-                    const std::function<void(std::int64_t time_us, const Cells&)>& use)
+                    const std::function<void(const DatedRow&)>& use)
 {
     Cells cells;
+    std::vector<TimedRow> found;
     while (const auto line = lines.next()) {
         if (trimmed(*line).empty()) continue;
         split(*line, how.separator, cells, kMostCells);
         if (how.skip && how.skip(cells)) continue;
         if (const auto us = how.time_of(cells))
-            use(*us, cells);
+            found.push_back({*line, lines.number(), *us, true});
         else
             rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' " + how.lacks);
+    }
+    note_order(put_in_order(found, false), rows);
+    for (const TimedRow& row : found) {
+        split(row.text, how.separator, cells, kMostCells);
+        use({row.time_us, row.line, cells});
     }
 }
 
 double usual_step_h(Lines lines, const DatedRows& how)
 {
-    std::vector<std::int64_t> times;
+    std::vector<TimedRow> rows;
     Cells cells;
     while (const auto line = lines.next()) {
         split(*line, how.separator, cells, kMostCells);
         if (how.skip && how.skip(cells)) continue;
-        const auto us = how.time_of(cells);
-        if (us && (times.empty() || *us > times.back())) times.push_back(*us);
+        if (const auto us = how.time_of(cells)) rows.push_back({*line, lines.number(), *us, true});
     }
+    put_in_order(rows, false);
+    std::vector<std::int64_t> times;
+    for (const TimedRow& row : rows)
+        if (times.empty() || row.time_us > times.back()) times.push_back(row.time_us);
     return static_cast<double>(usual_step_us(times)) / 3600e6;
 }
 

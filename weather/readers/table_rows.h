@@ -28,9 +28,16 @@ struct DatedRows {
     std::function<bool(const Cells&)> skip{};  ///< rows of other stations; may be empty
     const char* lacks = "has no time";         ///< said of a bad row
 };
-/// Calls `use` for every row that has a time; empty lines are passed over, bad rows told.
+/// One of them.
+struct DatedRow {
+    std::int64_t time_us = 0;
+    std::size_t line = 0;
+    const Cells& cells;
+};
+/// Calls `use` for every row that has a time; empty lines are passed over, bad rows told. A table whose
+/// newest row stands first is read from its end, a row that stands there again at once is read once.
 void for_dated_rows(Lines& lines, const DatedRows& how, RowCollector& rows,
-                    const std::function<void(std::int64_t time_us, const Cells&)>& use);
+                    const std::function<void(const DatedRow&)>& use);
 
 /// The usual distance of the rows below a header, hours; rows out of order do not count.
 double usual_step_h(Lines lines, const DatedRows& how);

@@ -46,13 +46,13 @@ void read_table_rows(Lines& lines, const TableHeader& header, const TableRows& h
         if (header.has(c.name)) columns.push_back({&c, header.at(c.name)});
     }
     const DatedRows dated{how.separator, how.time_of, how.skip};
-    for_dated_rows(lines, dated, rows, [&](std::int64_t time_us, const Cells& cells) {
-        if (!rows.begin_row(time_us, lines.number())) return;
+    for_dated_rows(lines, dated, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
-            const auto cell = cell_of(cells, c.at);
+            const auto cell = cell_of(row.cells, c.at);
             put_cell(*c.meaning, cell, how.value_of(cell), rows);
         }
-        if (how.also) how.also(cells);
+        if (how.also) how.also(row.cells);
     });
     rows.unread_columns(header.unread());
 }

@@ -129,15 +129,15 @@ void read_csv(std::string_view text, RowCollector& rows, const ReadOptions& opti
     std::vector<Hour> hours;
     const DatedRows how{
         .time_of = [&](const Cells& cells) { return us_from_iso(cell_of(cells, stamp)); }};
-    for_dated_rows(lines, how, rows, [&](std::int64_t time_us, const Cells& cells) {
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         Hour& h = hours.emplace_back();
-        h.time_us = time_us;
-        h.line = lines.number();
-        numbers.read(cells, h.line, h);
-        add_kind(h, cell_of(cells, kind));
+        h.time_us = row.time_us;
+        h.line = row.line;
+        numbers.read(row.cells, h.line, h);
+        add_kind(h, cell_of(row.cells, kind));
         if (std::isnan(rows.site().latitude_deg)) {
-            rows.site().latitude_deg = to_number(cell_of(cells, latitude)).value_or(kMissing);
-            rows.site().longitude_deg = to_number(cell_of(cells, longitude)).value_or(kMissing);
+            rows.site().latitude_deg = to_number(cell_of(row.cells, latitude)).value_or(kMissing);
+            rows.site().longitude_deg = to_number(cell_of(row.cells, longitude)).value_or(kMissing);
         }
     });
     put(hours, rows, options);

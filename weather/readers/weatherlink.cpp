@@ -144,12 +144,12 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                           ? "given for sea level; give the elevation to bring it down"
                           : "given for sea level, brought to the station");
     }
-    for_dated_rows(lines, how, rows, [&](std::int64_t time_us, const Cells& cells) {
-        if (!rows.begin_row(time_us, lines.number())) return;
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
             TableColumn column{{}, c.quantity->field, c.scale, c.offset};
             if (column.field == Field::Precip) column.fell_hours = hours;
-            const auto cell = trimmed(cell_of(cells, c.at));
+            const auto cell = trimmed(cell_of(row.cells, c.at));
             auto value = number_or_none(cell, {"--", "---"});
             if (value && column.field == Field::WindFrom)
                 value = compass_deg(cell).value_or(*value);
