@@ -119,6 +119,35 @@ TEST(MisnamedColumns, ACountOfAGaugeIsNoAmountOfAnHour)
         << "steady drizzle";
 }
 
+// Stations' displays count the rain of a day, by a clock of their own.
+TEST(MisnamedColumns, ACountOfEachDayIsNoAmountOfAnHour)
+{
+    for (const int midnight : {0, 7}) {
+        const auto of_day = [midnight](int h, int c) {
+            const int hour = (h + 24 - midnight) % 24;
+            return c == 1 ? number(0.2 * (hour < 15 ? hour : 14)) : usual(h, c);
+        };
+        EXPECT_THAT(refusal(table("air_temp_c,precip_mm", 72, of_day)),
+                    HasSubstr("a total of the day"))
+            << midnight;
+    }
+    // A file of one day that counts up, and one of days, whose rain may be any.
+    EXPECT_THAT(refusal(table("air_temp_c,precip_mm", 24,
+                              [](int h, int c) { return c == 1 ? number(0.2 * h) : usual(h, c); })),
+                HasSubstr("a total since some beginning"));
+    std::string days = "time,air_temp_c,precip_mm\n";
+    for (int d = 1; d <= 30; ++d)
+        days += "2024-04-" + std::string(d < 10 ? "0" : "") + std::to_string(d) + ",8," +
+                std::to_string(d % 7) + "\n";
+    EXPECT_EQ(refusal(days), "");
+    // Showers of every afternoon that end at different hours.
+    const auto showers = [](int h, int c) {
+        const int hour = h % 24, end = 18 + h / 24 % 3;
+        return c == 1 ? number(hour > 12 && hour < end ? 0.5 * (hour - 12) : 0.0) : usual(h, c);
+    };
+    EXPECT_EQ(refusal(table("air_temp_c,precip_mm", 72, showers)), "");
+}
+
 double fallen_mm(const std::string& text)
 {
     const ForcingTable t = read_weather(text).table;

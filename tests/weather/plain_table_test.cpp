@@ -335,6 +335,13 @@ TEST(PlainTable, QuantitiesThatContradictEachOtherAreTold)
     for (Row& row : rows) row[1] = number(*to_number(row[1]) * 0.0036);
     EXPECT_THAT(to_text(read(text_of(kNames, rows)).report),
                 HasSubstr("sw_down: no day has more than"));
+    rows.resize(49);  // two days are enough for a thousandth
+    EXPECT_THAT(to_text(read(text_of(kNames, rows)).report),
+                HasSubstr("sw_down: no day has more than"));
+    rows = hours();
+    rows.resize(49);
+    for (Row& row : rows) row[1] = number(*to_number(row[1]) * 0.05);  // thick cloud
+    EXPECT_THAT(to_text(read(text_of(kNames, rows)).report), Not(HasSubstr("no day has more")));
     rows = hours();
     for (Row& row : rows) row[1] = number(*to_number(row[1]) * 3.6);
     EXPECT_THAT(to_text(read(text_of(kNames, rows)).report),

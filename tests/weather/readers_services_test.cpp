@@ -375,5 +375,42 @@ TEST(WeatherLink, TextWithoutUnitsIsRefusedByName)
         HasSubstr("WeatherLink program, which names no units"));
 }
 
+// People's tables stand newest first, or with rows that were saved twice.
+TEST(Services, NewestFirstAndRowsTwiceAreReadTheSame)
+{
+    struct Sample {
+        const char* name;
+        std::size_t header_lines;
+    };
+    for (const auto& [name, header_lines] :
+         {Sample{"visual_crossing.csv", 1}, Sample{"openweather.csv", 1}, Sample{"nasa_power.csv", 18},
+          Sample{"fluxnet_hh.csv", 1}, Sample{"meteo_france_hourly.csv", 1},
+          Sample{"meteoswiss_hours.csv", 1}, Sample{"weatherlink.csv", 3}, Sample{"meteostat.csv", 1}}) {
+        const std::string text = corpus(name);
+        std::string head, newest_first, twice;
+        std::size_t number = 0;
+        Lines lines(text);
+        while (const auto line = lines.next()) {
+            const std::string whole = std::string(*line) + "\n";
+            if (number++ < header_lines) {
+                head += whole;
+            } else if (!trimmed(*line).empty()) {
+                newest_first = whole + newest_first;
+                twice += whole + whole;
+            }
+        }
+        const ForcingTable was = raw(text).table;
+        ASSERT_GT(was.rows(), 2u) << name;
+        for (const std::string& changed : {head + newest_first, head + twice}) {
+            const ForcingTable is = raw(changed).table;
+            ASSERT_EQ(is.time_us, was.time_us) << name;
+            for (std::size_t f = 0; f < kFieldCount; ++f)
+                for (std::size_t i = 0; i < was.columns[f].size(); ++i)
+                    EXPECT_THAT(is.columns[f].at(i), testing::NanSensitiveDoubleEq(was.columns[f][i]))
+                        << name << ' ' << field_info(static_cast<Field>(f)).name << ' ' << i;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace petrichor::weather

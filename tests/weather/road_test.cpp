@@ -78,6 +78,24 @@ TEST(Road, TrafficWarmsItAndPloughsClearIt)
     EXPECT_LE(std::abs(swept.mass_residual_most), 1e-9);
 }
 
+// Vehicles stir calm air as 1.5 m/s of wind by day do, and as 0.4 by night.
+TEST(Road, TrafficStirsTheAir)
+{
+    PhysicalParams busy, still;
+    busy.surface = still.surface = surface_preset("road");
+    still.surface.traffic_wind_m_s = 0.0;
+    for (const auto& [sun_w_m2, wind_m_s] : {std::pair{0.0, 0.4}, std::pair{300.0, 1.5}}) {
+        ForcingTable calm = steady(278.15, sun_w_m2, 250, 0, 12), windy = calm;
+        calm[Field::Wind].assign(calm.rows(), 0.1);
+        windy[Field::Wind].assign(windy.rows(), wind_m_s);
+        const auto end_c = [](const ForcingTable& t, const PhysicalParams& p) {
+            return PhysicalTimeline(t, p).state_at(12 * kHourUs).surface_temp_c;
+        };
+        EXPECT_NEAR(end_c(calm, busy), end_c(windy, still), 1e-9) << sun_w_m2;
+        EXPECT_GT(std::abs(end_c(calm, busy) - end_c(calm, still)), 0.05) << sun_w_m2;
+    }
+}
+
 // Snow that melts as it falls takes its heat and nothing else: the road stays as coupled to the air
 // as it is without it.
 TEST(Road, ADustingThatMeltsLeavesAWarmRoad)
@@ -310,6 +328,46 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     MetroObservation dry = o;
     dry.table[Field::DewPoint].assign(o.table.rows(), kMissing);
     EXPECT_EQ(observed_weather(dry, silent)[Field::Cloud][0], 0.5);
+}
+
+// A forecast begins with the mean of its first three hours, and one that snows out of a clear sky has
+// left its clouds out.
+TEST(Metro, CloudsWithWhichAForecastBegins)
+{
+    const auto measure = [](const char* minute) {
+        return std::string("<measure><observation-time>2004-01-30T03:") + minute +
+               "Z</observation-time><at>-5</at><td>-6</td><ws>18</ws><st>-3</st><sst>-1</sst>"
+               "</measure>";
+    };
+    const MetroObservation o = read_metro_observation(
+        "<observation><measure-list>" + measure("50") + measure("59") +
+        "</measure-list></observation>");
+    const auto forecast_of = [](const std::vector<double>& cc, double snow_cm_h) {
+        std::string text = "<forecast><prediction-list>";
+        for (std::size_t i = 0; i < cc.size(); ++i)
+            text += "<prediction><forecast-time>2004-01-30T0" + std::to_string(4 + i) +
+                    ":00Z</forecast-time><at>-5</at><td>-6</td><ws>9</ws><ra>0</ra><sn>" +
+                    std::to_string(snow_cm_h * static_cast<double>(i)) + "</sn><cc>" +
+                    std::to_string(cc[i]) + "</cc></prediction>";
+        return text + "</prediction-list></forecast>";
+    };
+    const auto before = [&](const std::string& text) {
+        return observed_weather(o, read_metro_forecast(text))[Field::Cloud][1];
+    };
+    const double last = std::exp(-1.0 / 60.0 / kForecastCloudMemory_h), air = 1.0 - last;
+    const double of_air = cloud_of_humidity(rel_humidity_of_dew_point_pct(268.15, 267.15));
+    EXPECT_NEAR(before(forecast_of({0, 4, 8, 1, 1}, 0.0)), 0.5 * last + of_air * air, 1e-9);
+    EXPECT_NEAR(before(forecast_of({0, 0, 0, 0, 0}, 0.05)), of_air * air, 1e-9);
+    EXPECT_NEAR(before(forecast_of({0, 0, 0, 0, 0}, 0.2)), last + of_air * air, 1e-9);
+    // As weather of its own: told, and overcast until the last row, of which nothing is known.
+    const ReadResult read = read_weather(forecast_of({0, 0, 2, 0, 0}, 0.2));
+    const auto& cloud = read.table[Field::Cloud];
+    ASSERT_EQ(cloud.size(), 5u);
+    EXPECT_EQ(cloud[0], 1.0);
+    EXPECT_EQ(cloud[2], 0.25);
+    EXPECT_EQ(cloud[3], 1.0);
+    EXPECT_EQ(cloud[4], 0.0);
+    EXPECT_NE(to_text(read.report).find("out of a clear sky in 3 rows"), std::string::npos);
 }
 
 // Rain of measured hours: the station's word, where its air can be that of rain, before the forecast's.

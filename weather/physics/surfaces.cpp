@@ -35,6 +35,7 @@ constexpr Row kRows[] = {
 
 // Crowned, swept by traffic and ploughed. Albedo, emissivity, heat from traffic and below, and how
 // fast snow goes are METRo's (Crevier & Delage 2001); roughness is that of the exchange METRo has.
+// Vehicles stir the air as 1.5 m/s of wind do by day and 0.4 by night, which METRo leaves out.
 Surface road_in_use()
 {
     Surface s;
@@ -51,6 +52,7 @@ Surface road_in_use()
     s.conductivity_w_m_k = 0.95;
     s.heat_capacity_j_m3_k = 2.1e6;
     s.traffic_heat_w_m2 = 10.0;
+    s.traffic_wind_m_s = 1.5;
     s.snow_clearing_1_h = 1.08;
     return s;
 }

@@ -33,7 +33,7 @@ struct Surface {
     double conductivity_w_m_k = 0.75;      ///< of the ground
     double heat_capacity_j_m3_k = 1.94e6;  ///< of the ground
     double traffic_loss_1_h = 0.0;  ///< film sprayed away by vehicles, 0.1..1.5 on roads in use
-    double traffic_wind_m_s = 0.0;  ///< wind is raised to this; 0.4 by night, 1.5 by day on roads
+    double traffic_wind_m_s = 0.0;  ///< wind is raised to this by day, to 0.27 of it by night
     /// Snow that wheels and ploughs throw off the road; METRo takes 1.08 (0.0003 1/s).
     double snow_clearing_1_h = 0.0;
     double traffic_heat_w_m2 = 0.0;  ///< of tyres, engines and what lies below; METRo takes 10

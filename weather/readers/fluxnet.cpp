@@ -12,6 +12,7 @@
 #include "weather/physics/humidity.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
 namespace petrichor::weather {
@@ -96,44 +97,33 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
         const auto value = to_number(cell);
         return value && *value > -9990.0 ? *value : kMissing;
     };
-    std::vector<std::string_view> cells;
     bool told = false;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', cells, 4096);
-        const auto from = time_of_cell(cell_of(cells, begin)), to = time_of_cell(cell_of(cells, end));
-        if (!from || !to || *to <= *from) {
-            rows.bad_row(lines.number(), "time",
-                         "'" + shown(*line) + "' has no times of its beginning and end");
-            continue;
-        }
-        const double seconds = static_cast<double>(*to - *from) * 1e-6;
+    const auto end_of = [&](const Cells& cells) { return time_of_cell(cell_of(cells, end)); };
+    const DatedRows how{.time_of = [&](const Cells& cells) -> std::optional<std::int64_t> {
+                            const auto from = time_of_cell(cell_of(cells, begin)), to = end_of(cells);
+                            return from && to && *to > *from ? from : std::nullopt;
+                        },
+                        .lacks = "has no times of its beginning and end"};
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        const double seconds = static_cast<double>(end_of(row.cells).value() - row.time_us) * 1e-6;
         if (!told) {
             told = true;
             for (const Column& c : columns) rows.holds_after(c.quantity->field, 0.5 * seconds);
             if (deficit != TableHeader::kNone) rows.holds_after(Field::RelHumidity, 0.5 * seconds);
         }
-        if (!rows.begin_row(*from, lines.number())) continue;
+        if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
-            const auto cell = cell_of(cells, c.at);
-            const double value = value_of(cell);
-            if (!std::isnan(value))
-                rows.set(c.quantity->field, value * c.quantity->scale + c.quantity->offset);
-            else if (to_number(cell) || trimmed(cell).empty())
-                rows.missing(c.quantity->field);
-            else
-                rows.unreadable(c.quantity->field, cell);
+            const auto cell = cell_of(row.cells, c.at);
+            auto value = number_or_none(cell);
+            if (value && *value <= -9990.0) value.reset();
+            put_cell({{}, c.quantity->field, c.quantity->scale, c.quantity->offset}, cell, value,
+                     rows);
         }
-        if (precip != TableHeader::kNone) {
-            const double mm = value_of(cell_of(cells, precip));
-            if (std::isnan(mm))
-                rows.missing(Field::Precip);
-            else
-                rows.set(Field::Precip, mm / seconds);
-        }
+        if (precip != TableHeader::kNone)
+            put_value(Field::Precip, value_of(cell_of(row.cells, precip)) / seconds, rows);
         if (deficit != TableHeader::kNone) {
-            const double hpa = value_of(cell_of(cells, deficit)),
-                         air_k = value_of(cell_of(cells, air)) + kZeroCelsiusK;
+            const double hpa = value_of(cell_of(row.cells, deficit)),
+                         air_k = value_of(cell_of(row.cells, air)) + kZeroCelsiusK;
             if (std::isnan(hpa) || !(air_k > 173.15 && air_k < 333.15))
                 rows.missing(Field::RelHumidity);
             else
@@ -141,7 +131,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                          std::clamp(100.0 - 1e4 * hpa / saturation_pressure_water_pa(air_k), 0.0,
                                     100.0));
         }
-    }
+    });
 }
 
 bool recognise(const FileHead& head)

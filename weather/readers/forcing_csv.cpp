@@ -1,6 +1,7 @@
 // Plain CSV: a header with a time column and names with units, then rows; its layout:
 // plain_table.h. Column names: units.cpp.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
@@ -10,6 +11,7 @@
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/plain_table.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/text.h"
 #include "weather/readers/units.h"
 
@@ -320,22 +322,40 @@ void set_from_parts(RowCollector& rows, const Parts& p)
     }
 }
 
-// A gauge's count since some beginning never falls and mostly rises; amounts of hours fall again.
+// A gauge's count since some beginning never falls and mostly rises; amounts of hours fall again. One
+// of each day (month, year) falls where a day begins, whichever clock it keeps, and nowhere else.
 class Count {
 public:
-    void add(double value)
+    void add(double value, std::int64_t time_us)
     {
-        if (seen_ > 0) {
-            falls_ += value < last_;
-            rises_ += value > last_;
+        constexpr std::int64_t kHour_us = 3600LL * 1000000, kDay_us = 24 * kHour_us;
+        const std::int64_t day = time_us / kDay_us, hour = time_us % kDay_us / kHour_us;
+        if (seen_ > 0 && value < last_) {
+            ++falls_;
+            at_midnight_ = at_midnight_ && day != day_;
+            fall_hours_ |= 1u << hour;
+        }
+        if (seen_ > 0 && value > last_) {
+            ++rises_;
+            rise_hours_ |= 1u << hour;
         }
         last_ = value;
+        day_ = day;
         ++seen_;
     }
-    bool counts_up() const { return seen_ >= 48 && falls_ == 0 && rises_ >= 10; }
+    bool counts_up() const { return seen_ >= 24 && rises_ >= 10 && falls_ == 0; }
+    bool counts_up_by_day() const
+    {
+        const bool one_hour = std::popcount(fall_hours_) == 1 && falls_ >= 2;
+        return seen_ >= 24 && rises_ >= 10 && std::popcount(rise_hours_) >= 4 && falls_ > 0 &&
+               (at_midnight_ || one_hour);
+    }
 
 private:
     std::size_t seen_ = 0, falls_ = 0, rises_ = 0;
+    std::uint32_t fall_hours_ = 0, rise_hours_ = 0;  // of the day, a bit each
+    std::int64_t day_ = 0;
+    bool at_midnight_ = true;
     double last_ = 0.0;
 };
 
@@ -368,16 +388,6 @@ std::string_view code_of_row(const Header& h, const std::vector<std::string_view
     return {};
 }
 
-// Where wind comes from in words, degrees: N, NNE, .. NNW.
-std::optional<double> compass_deg(std::string_view text)
-{
-    constexpr const char* kPoints[] = {"n", "nne", "ne", "ene", "e", "ese", "se", "sse",
-                                       "s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw"};
-    const std::string low = lower(text);
-    for (int i = 0; i < 16; ++i)
-        if (low == kPoints[i]) return 22.5 * i;
-    return std::nullopt;
-}
 bool is_no_direction(std::string_view text)
 {
     const std::string low = lower(text);
@@ -393,6 +403,7 @@ bool is_trace(std::string_view text)
 struct Seen {
     Words missing, traces;
     std::vector<Count> counts;
+    std::int64_t time_us = 0;  // of the row
 };
 
 void read_cell(std::string_view text, std::size_t column, const ColumnMeaning& m,
@@ -424,7 +435,7 @@ void read_cell(std::string_view text, std::size_t column, const ColumnMeaning& m
     } else {
         double si = *value * m.scale + m.offset;
         if (m.amount) {
-            seen.counts[column].add(si);
+            seen.counts[column].add(si, seen.time_us);
             si /= amount_s;
         }
         if (m.field == Field::AirTemp) parts.air_k = si;
@@ -434,22 +445,10 @@ void read_cell(std::string_view text, std::size_t column, const ColumnMeaning& m
 }
 
 // Rows that had to be put in order, rows that stand there twice, and clocks that jump.
-void note_order(const RowOrder& order, const std::vector<TimedRow>& rows, bool zoned,
+void note_clock(const RowOrder& order, const std::vector<TimedRow>& rows, bool zoned,
                 RowCollector& out)
 {
-    if (order.moved > 0) {
-        out.note(ReadNote::Kind::Time, 0, "time",
-                 order.newest_first ? std::string("the newest row stands first: read from the end")
-                                    : std::to_string(order.moved) +
-                                          (order.moved == 1 ? " row stands" : " rows stand") +
-                                          " behind a later one: read in the order of their times");
-    }
-    if (order.repeated > 0) {
-        out.note(ReadNote::Kind::Time, 0, "time",
-                 std::to_string(order.repeated) +
-                     (order.repeated == 1 ? " row stands" : " rows stand") +
-                     " in the file again, letter by letter: read once");
-    }
+    note_order(order, out);
     if (zoned) return;
     const SummerTime summer = summer_time(rows);
     if (summer.skipped.empty() && summer.repeated.empty()) return;
@@ -511,20 +510,22 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
         const double row_s = amount_s.empty() ? 0.0 : amount_s[rows.rows() - 1];
         const std::string_view code = code_of_row(h, cells, table);
         Parts parts;
+        seen.time_us = row.time_us;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (h.meaning[i])
                 read_cell(cells[i], i, *h.meaning[i], table, code, row_s, rows, parts, seen);
         }
         set_from_parts(rows, parts);
     }
-    note_order(order, table_rows, zoned, rows);
+    note_clock(order, table_rows, zoned, rows);
     const auto& counts = seen.counts;
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (!counts[i].counts_up()) continue;
+        const bool by_day = counts[i].counts_up_by_day();
+        if (!by_day && !counts[i].counts_up()) continue;
         throw Error(
-            "weather: column '" + shown(h.names[i]) +
-                "' never falls while it rises again and again: a total since some beginning, not "
-                "that of each row",
+            "weather: column '" + shown(h.names[i]) + "' never falls while it rises again and again" +
+                (by_day ? ", but where a day begins: a total of the day, not that of each row"
+                        : ": a total since some beginning, not that of each row"),
             "Give the differences of its rows, or leave it out with --ignore " + shown(h.names[i]) +
                 ".");
     }

@@ -8,6 +8,7 @@
 #include "weather/physics/constants.h"
 #include "weather/readers/days.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
 namespace petrichor::weather {
@@ -48,53 +49,44 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     DaysOfWeather days;
     std::string first;
     bool others = false;
-    constexpr std::size_t kMostTold = 5;
-    std::size_t no_report = 0, odd = 0;
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', cells, 256);
-        const auto us = us_from_iso(cell_of(cells, date));
-        if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no DATE");
-            continue;
-        }
+    std::size_t no_report = 0;
+    OddCells odd(rows);
+    const DatedRows how{
+        .time_of = [&](const Cells& cells) { return us_from_iso(cell_of(cells, date)); },
+        .lacks = "has no DATE"};
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         if (first.empty()) {
-            first = std::string(cell_of(cells, station));
+            first = std::string(cell_of(row.cells, station));
             Site& site = rows.site();
-            site.latitude_deg = to_number(cell_of(cells, latitude)).value_or(kMissing);
-            site.longitude_deg = to_number(cell_of(cells, longitude)).value_or(kMissing);
-            site.elevation_m = to_number(cell_of(cells, elevation)).value_or(kMissing);
-            site.name = shown(cell_of(cells, name));
+            site.latitude_deg = to_number(cell_of(row.cells, latitude)).value_or(kMissing);
+            site.longitude_deg = to_number(cell_of(row.cells, longitude)).value_or(kMissing);
+            site.elevation_m = to_number(cell_of(row.cells, elevation)).value_or(kMissing);
+            site.name = shown(cell_of(row.cells, name));
         }
-        if (cell_of(cells, station) != first) {
+        if (cell_of(row.cells, station) != first) {
             others = true;
-            continue;
+            return;
         }
-        if (days.size() >= kMostDays) continue;
-        DayOfWeather& day = days[*us];
-        day.line = lines.number();
+        if (days.size() >= kMostDays) return;
+        DayOfWeather& day = days[row.time_us];
+        day.line = row.line;
         for (std::size_t i = 0; i < at.size(); ++i) {
             const Column& c = kColumns[i];
-            const auto cell = trimmed(cell_of(cells, at[i]));
-            auto value = to_number(cell);
-            if (!value && !cell.empty() && ++odd <= kMostTold)
-                rows.note(ReadNote::Kind::OutOfRange, lines.number(), c.name,
-                          "'" + shown(cell) + "' is not a number, taken as missing");
-            if (!value || *value == c.missing) continue;
-            if (c.value == &DayOfWeather::pressure_pa && *value < 100.0) *value += 1000.0;
-            day.*c.value = *value * c.scale + c.offset;
+            double value = odd.number_of(cell_of(row.cells, at[i]), row.line, c.name);
+            if (std::isnan(value) || value == c.missing) continue;
+            if (c.value == &DayOfWeather::pressure_pa && value < 100.0) value += 1000.0;
+            day.*c.value = value * c.scale + c.offset;
         }
         // "I": the station told no amount, and may have had one; .00 stands there all the same.
-        if (trimmed(cell_of(cells, amount_kind)) == "I" && day.precip_mm == 0.0) {
+        if (trimmed(cell_of(row.cells, amount_kind)) == "I" && day.precip_mm == 0.0) {
             day.precip_mm = kMissing;
             ++no_report;
         }
-        std::string six(trimmed(cell_of(cells, weather)));
+        std::string six(trimmed(cell_of(row.cells, weather)));
         six.insert(0, six.size() < 6 ? 6 - six.size() : 0, '0');  // programs drop the zeros before
         const bool rain = six[1] == '1', snow = six[2] == '1';
         if (day.precip_mm > 0.0 && (rain || snow)) day.snow_share = rain ? (snow ? 0.5 : 0.0) : 1.0;
-    }
+    });
     if (others)
         rows.note(ReadNote::Kind::Warning, 0, "station",
                   "several stations in the file, only " + shown(first) + " is used");

@@ -16,6 +16,7 @@
 #include "weather/physics/constants.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
 namespace petrichor::weather {
@@ -81,6 +82,13 @@ std::string station_of(Lines lines, std::size_t column, const ReadOptions& optio
     return stations.empty() ? std::string() : stations.begin()->first;
 }
 
+DatedRows rows_of_station(const std::string& chosen, std::size_t station, std::size_t stamp)
+{
+    return {.separator = ';',
+            .time_of = [=](const Cells& cells) { return time_of_cell(cell_of(cells, stamp)); },
+            .skip = [=](const Cells& cells) { return trimmed(cell_of(cells, station)) != chosen; }};
+}
+
 void read_hours(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
     Lines lines(text);
@@ -104,44 +112,31 @@ void read_hours(std::string_view text, RowCollector& rows, const ReadOptions& op
     rows.unread_columns(header.unread());
     for (const Field f : {Field::Shortwave, Field::Diffuse, Field::Longwave}) rows.means_of_past(f);
     std::size_t doubtful = 0;
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ';', cells, 1024);
-        if (trimmed(cell_of(cells, station)) != chosen) continue;
-        const auto us = time_of_cell(cell_of(cells, stamp));
-        if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no time");
-            continue;
-        }
-        if (!rows.begin_row(*us, lines.number())) continue;
+    const DatedRows how = rows_of_station(chosen, station, stamp);
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
         Site& site = rows.site();
         if (std::isnan(site.latitude_deg)) {
-            site.latitude_deg = to_number(cell_of(cells, lat)).value_or(kMissing);
-            site.longitude_deg = to_number(cell_of(cells, lon)).value_or(kMissing);
-            site.elevation_m = to_number(cell_of(cells, height)).value_or(kMissing);
-            site.name = shown(cell_of(cells, name));
+            site.latitude_deg = to_number(cell_of(row.cells, lat)).value_or(kMissing);
+            site.longitude_deg = to_number(cell_of(row.cells, lon)).value_or(kMissing);
+            site.elevation_m = to_number(cell_of(row.cells, height)).value_or(kMissing);
+            site.name = shown(cell_of(row.cells, name));
         }
         for (std::size_t i = 0; i < value_at.size(); ++i) {
             if (value_at[i] == TableHeader::kNone) continue;
             const TableColumn& c = kHours[i];
-            const auto cell = trimmed(cell_of(cells, value_at[i]));
-            const auto value = to_number(cell);
-            const bool doubt = trimmed(cell_of(cells, quality_at[i])) == "2";
-            doubtful += doubt && value;
-            if (cell.empty() || doubt)
-                rows.missing(c.field);
-            else if (!value)
-                rows.unreadable(c.field, cell);
-            else if (c.fell_hours > 0.0)
-                rows.fell_before(c.field, *value * c.scale, c.fell_hours);
-            else
-                rows.set(c.field, *value * c.scale + c.offset);
+            const auto cell = trimmed(cell_of(row.cells, value_at[i]));
+            auto value = number_or_none(cell);
+            if (trimmed(cell_of(row.cells, quality_at[i])) == "2") {
+                doubtful += value && !std::isnan(*value);
+                value.reset();
+            }
+            put_cell(c, cell, value, rows);
         }
         // 9 oktas: the sky is not to be seen.
-        if (const auto n = to_number(cell_of(cells, oktas)); n && *n >= 0.0 && *n <= 9.0)
+        if (const auto n = to_number(cell_of(row.cells, oktas)); n && *n >= 0.0 && *n <= 9.0)
             rows.set(Field::Cloud, std::min(*n / 8.0, 1.0));
-    }
+    });
     if (doubtful)
         rows.note(ReadNote::Kind::Info, 0, "missing",
                   std::to_string(doubtful) + " values that their code calls doubtful, left out");
@@ -168,28 +163,14 @@ void read_synop(std::string_view text, RowCollector& rows, const ReadOptions& op
     rows.note(ReadNote::Kind::Info, 0, "place",
               "the place of the station is not in the file: give latitude and longitude");
     // Messages come every three hours or every hour: what fell in less than that is not all of it.
-    std::vector<std::int64_t> times;
-    std::vector<std::string_view> cells;
-    for (Lines again = lines; const auto line = again.next();) {
-        split(*line, ';', cells, 1024);
-        if (trimmed(cell_of(cells, station)) != chosen) continue;
-        const auto us = time_of_cell(cell_of(cells, stamp));
-        if (us && (times.empty() || *us > times.back())) times.push_back(*us);
-    }
-    const double step_h = static_cast<double>(usual_step_us(times)) / 3600e6;
+    const DatedRows of_station = rows_of_station(chosen, station, stamp);
+    const double step_h = usual_step_h(lines, of_station);
     TableRows how;
     how.separator = ';';
     how.columns = kSynop;
-    how.value_of = [](std::string_view cell) -> std::optional<double> {
-        if (trimmed(cell).empty() || trimmed(cell) == "mq") return std::nullopt;
-        return to_number(cell).value_or(kMissing);
-    };
-    how.time_of = [&](const std::vector<std::string_view>& f) {
-        return time_of_cell(cell_of(f, stamp));
-    };
-    how.skip = [&](const std::vector<std::string_view>& f) {
-        return trimmed(cell_of(f, station)) != chosen;
-    };
+    how.value_of = [](std::string_view cell) { return number_or_none(cell, {"mq"}); };
+    how.time_of = of_station.time_of;
+    how.skip = of_station.skip;
     how.also = [&](const std::vector<std::string_view>& f) {
         for (const Sum& sum : sums)
             if (const auto mm = to_number(cell_of(f, sum.at)); mm && sum.hours >= step_h)

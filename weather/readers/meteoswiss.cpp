@@ -11,6 +11,7 @@
 #include "weather/physics/constants.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
 namespace petrichor::weather {
@@ -89,40 +90,30 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     }
     std::string chosen = options.station;
     bool others = false, any = false;
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ';', cells, 1024);
-        const auto who = trimmed(cell_of(cells, station));
-        if (chosen.empty()) chosen = std::string(who);
-        if (who != chosen) {
-            others = true;
-            continue;
-        }
-        any = true;
+    const DatedRows how{
+        .separator = ';',
         // 31.12.2024 23:50, or 202412312350
-        const auto us = time_of_cell(cell_of(cells, stamp), DateOrder::DayFirst);
-        if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no time");
-            continue;
-        }
-        if (!rows.begin_row(*us, lines.number())) continue;
+        .time_of =
+            [&](const Cells& cells) {
+                return time_of_cell(cell_of(cells, stamp), DateOrder::DayFirst);
+            },
+        .skip =
+            [&](const Cells& cells) {
+                const auto who = trimmed(cell_of(cells, station));
+                if (chosen.empty()) chosen = std::string(who);
+                (who == chosen ? any : others) = true;
+                return who != chosen;
+            }};
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
-            const Quantity& q = *c.quantity;
-            const auto cell = trimmed(cell_of(cells, c.at));
-            const auto value = to_number(cell);
-            if (cell.empty() || cell == "-")
-                rows.missing(q.field);
-            else if (!value)
-                rows.unreadable(q.field, cell);
-            else if (q.field != Field::Precip)
-                rows.set(q.field, *value * q.scale + q.offset);
-            else if (c.hour)
-                rows.set(Field::Precip, *value / 3600.0);
-            else
-                rows.fell_before(Field::Precip, *value, 1.0 / 6.0);
+            TableColumn column{{}, c.quantity->field, c.quantity->scale, c.quantity->offset};
+            if (column.field == Field::Precip && c.hour) column.scale = 1.0 / 3600.0;
+            if (column.field == Field::Precip && !c.hour) column.fell_hours = 1.0 / 6.0;
+            const auto cell = trimmed(cell_of(row.cells, c.at));
+            put_cell(column, cell, number_or_none(cell, {"-"}), rows);
         }
-    }
+    });
     rows.site().name = shown(chosen);
     if (others && (options.station.empty() || !any))
         throw Error("weather: MeteoSwiss: several stations in the file" +

@@ -274,11 +274,42 @@ static double rain_of(const MetroObservation& observed, std::size_t row, double 
     return forecast_kg_m2_s;
 }
 
+// Whether a row of a forecast has a clear sky out of which 0.1 mm/h and more fall: some who make
+// forecasts leave their cloud at 0.
+static bool cloud_left_out(const ForcingTable& forecast, std::size_t row)
+{
+    constexpr double kFalls_kg_m2_s = 0.0999 / 3600.0;
+    const auto of = [&](Field f) { return forecast.has(f) ? forecast[f][row] : 0.0; };
+    return of(Field::Cloud) == 0.0 && of(Field::Rain) + of(Field::Snow) >= kFalls_kg_m2_s;
+}
+
+static double forecast_cover(const ForcingTable& forecast, std::size_t row)
+{
+    if (!forecast.has(Field::Cloud)) return kMissing;
+    return cloud_left_out(forecast, row) ? 1.0 : forecast[Field::Cloud][row];
+}
+
+// Cover with which a forecast begins: the mean of its first hours, one of which alone may be wrong.
+static double first_cover(const ForcingTable& forecast)
+{
+    constexpr auto kFirst_us = static_cast<std::int64_t>(kFirstCloud_h * 3600e6);
+    double sum = 0.0;
+    std::size_t known = 0;
+    for (std::size_t i = 0;
+         i < forecast.rows() && forecast.time_us[i] - forecast.time_us[0] < kFirst_us; ++i) {
+        const double cover = forecast_cover(forecast, i);
+        if (std::isnan(cover)) continue;
+        sum += cover;
+        ++known;
+    }
+    return known > 0 ? sum / static_cast<double>(known) : kMissing;
+}
+
 ForcingTable observed_weather(const MetroObservation& observed, const ForcingTable& forecast)
 {
     ForcingTable t = observed.table;
     t.site = forecast.site;
-    const auto& cloud = forecast[Field::Cloud];
+    const double first = first_cover(forecast);
     const auto kept = [](std::int64_t later_us, double memory_h) {
         return detail::exponential(static_cast<double>(-later_us) / (memory_h * 3600e6));
     };
@@ -294,12 +325,11 @@ ForcingTable observed_weather(const MetroObservation& observed, const ForcingTab
         const auto next =
             std::upper_bound(forecast.time_us.begin(), forecast.time_us.end(), now_us);
         const auto row = std::max<std::ptrdiff_t>(next - forecast.time_us.begin() - 1, 0);
-        const double forecast_cover =
-            cloud.empty() ? kMissing : cloud[static_cast<std::size_t>(row)];
-        if (!std::isnan(forecast_cover)) {
-            const std::int64_t before_us = std::max<std::int64_t>(forecast.time_us[0] - now_us, 0);
-            cover += (forecast_cover - cover) * kept(before_us, kForecastCloudMemory_h);
-        }
+        const std::int64_t before_us =
+            forecast.rows() > 0 ? std::max<std::int64_t>(forecast.time_us[0] - now_us, 0) : 0;
+        const double said =
+            before_us > 0 ? first : forecast_cover(forecast, static_cast<std::size_t>(row));
+        if (!std::isnan(said)) cover += (said - cover) * kept(before_us, kForecastCloudMemory_h);
         if (observed.falling[i] == 1.0) fell_us = now_us;
         if (fell_us) cover += (1.0 - cover) * kept(now_us - *fell_us, kRainCloudMemory_h);
         t[Field::Cloud].push_back(cover);
@@ -312,8 +342,9 @@ ForcingTable observed_weather(const MetroObservation& observed, const ForcingTab
     for (std::size_t i = 0; i < forecast.rows(); ++i) {
         if (!t.time_us.empty() && forecast.time_us[i] <= t.time_us.back()) continue;
         t.time_us.push_back(forecast.time_us[i]);
-        for (const Field f : {Field::AirTemp, Field::DewPoint, Field::Wind, Field::Cloud})
+        for (const Field f : {Field::AirTemp, Field::DewPoint, Field::Wind})
             t[f].push_back(forecast.has(f) ? forecast[f][i] : kMissing);
+        t[Field::Cloud].push_back(forecast_cover(forecast, i));
         t[Field::Rain].push_back(forecast.has(Field::Rain) ? forecast[Field::Rain][i] : 0.0);
         t[Field::Snow].push_back(0.0);
     }
@@ -404,6 +435,16 @@ static void read_metro(std::string_view text, RowCollector& rows, const ReadOpti
     ForcingTable table;
     if (forecast) {
         table = read_metro_forecast(text);
+        std::size_t overcast = 0;
+        for (std::size_t i = 0; i < table.rows(); ++i) {
+            if (!cloud_left_out(table, i)) continue;
+            table[Field::Cloud][i] = 1.0;
+            ++overcast;
+        }
+        if (overcast > 0)
+            rows.note(ReadNote::Kind::Warning, 0, "cc",
+                      "rain or snow falls out of a clear sky in " + std::to_string(overcast) +
+                          " rows: taken as overcast there");
     } else {
         MetroObservation observed = read_metro_observation(text);
         table = std::move(observed.table);

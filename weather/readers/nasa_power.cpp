@@ -15,6 +15,7 @@
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/json.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
 namespace petrichor::weather {
@@ -202,32 +203,25 @@ void read_csv(std::string_view text, RowCollector& rows, const ReadOptions& opti
         return found == units.end() ? std::string() : found->second;
     });
     const double zone_h = zone_of(standard, options, rows);
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', cells, 256);
+    const auto time_of = [&](const Cells& cells) -> std::optional<std::int64_t> {
         const auto y = to_integer(cell_of(cells, year)), m = to_integer(cell_of(cells, month)),
                    d = to_integer(cell_of(cells, day)), h = to_integer(cell_of(cells, hour));
-        std::optional<std::int64_t> us;
-        if (y && m && d && h && *m >= 1 && *m <= 12 && *d >= 1 && *d <= 31 && *h >= 0 && *h <= 23)
-            us = us_from_civil(
-                {*y, static_cast<int>(*m), static_cast<int>(*d), static_cast<int>(*h), 0, 0.0});
-        if (!us) {
-            rows.bad_row(lines.number(), "time",
-                         "'" + shown(*line) + "' is not a year, month, day and hour");
-            continue;
-        }
-        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number()))
-            continue;
+        if (!(y && m && d && h && *m >= 1 && *m <= 12 && *d >= 1 && *d <= 31 && *h >= 0 && *h <= 23))
+            return std::nullopt;
+        return us_from_civil(
+            {*y, static_cast<int>(*m), static_cast<int>(*d), static_cast<int>(*h), 0, 0.0});
+    };
+    const DatedRows how{.time_of = time_of, .lacks = "is not a year, month, day and hour"};
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us - static_cast<std::int64_t>(zone_h * 3600e6), row.line))
+            return;
         for (const Column& c : meaning.columns) {
-            const auto cell = cell_of(cells, c.at);
-            const auto value = to_number(cell);
-            if (!value && !trimmed(cell).empty())
-                rows.unreadable(c.field, cell);
-            else
-                meaning.set(c.at, value.value_or(kMissing), fill, rows);
+            const auto cell = cell_of(row.cells, c.at);
+            auto value = number_or_none(cell);
+            if (value == fill) value.reset();
+            put_cell({{}, c.field, c.scale, c.offset}, cell, value, rows);
         }
-    }
+    });
 }
 
 void read_json(std::string_view text, RowCollector& rows, const ReadOptions& options)

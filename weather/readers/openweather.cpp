@@ -11,6 +11,7 @@
 #include "weather/readers/air_scale.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/json.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
 namespace petrichor::weather {
@@ -107,12 +108,7 @@ void put(const std::vector<Hour>& hours, RowCollector& rows, const ReadOptions& 
     for (const Hour& h : hours) {
         if (!rows.begin_row(h.time_us, h.line)) continue;
         const double air_k = h.temp * kelvin.scale + kelvin.offset;
-        const auto set = [&](Field field, double si) {
-            if (std::isnan(si))
-                rows.missing(field);
-            else
-                rows.set(field, si);
-        };
+        const auto set = [&](Field field, double si) { put_value(field, si, rows); };
         set(Field::AirTemp, air_k);
         set(Field::DewPoint, h.dew * kelvin.scale + kelvin.offset);
         set(Field::RelHumidity, h.humidity);
@@ -135,50 +131,41 @@ void read_csv(std::string_view text, RowCollector& rows, const ReadOptions& opti
                       lon = header.at("lon"), city = header.at("city_name");
     for (const char* known : {"dt_iso", "weather_main", "weather_description", "weather_icon"})
         (void)header.at(known);
-    std::vector<std::size_t> at;
-    for (const Name& n : kNames) at.push_back(header.at(n.csv));
+    std::vector<NumberColumn<Hour>> columns;
+    for (const Name& n : kNames) columns.push_back({n.csv, n.value});
+    NumberColumns<Hour> numbers(header, columns, rows);
     rows.unread_columns(header.unread());
-    constexpr std::size_t kMostTold = 5;
-    std::size_t odd = 0;
     bool others = false;
     std::string place;
     std::vector<Hour> hours;
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', cells, 256);
-        const auto seconds = to_integer(cell_of(cells, dt));
-        if (!seconds || std::abs(*seconds) > 20000000000LL) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no dt");
-            continue;
-        }
+    const DatedRows how{.time_of = [&](const Cells& cells) -> std::optional<std::int64_t> {
+                            const auto seconds = to_integer(cell_of(cells, dt));
+                            if (!seconds || std::abs(*seconds) > 20000000000LL) return std::nullopt;
+                            return *seconds * 1000000;
+                        },
+                        .lacks = "has no dt"};
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         // One file may hold several places, one behind the other.
-        std::string where(cell_of(cells, lat));
-        where.append(" ").append(cell_of(cells, lon));
+        std::string where(cell_of(row.cells, lat));
+        where.append(" ").append(cell_of(row.cells, lon));
         if (place.empty()) {
             place = where;
             Site& site = rows.site();
-            site.latitude_deg = to_number(cell_of(cells, lat)).value_or(kMissing);
-            site.longitude_deg = to_number(cell_of(cells, lon)).value_or(kMissing);
-            site.name = shown(cell_of(cells, city));
-            if (const auto s = to_number(cell_of(cells, zone)); s && std::abs(*s) <= 14.0 * 3600.0)
+            site.latitude_deg = to_number(cell_of(row.cells, lat)).value_or(kMissing);
+            site.longitude_deg = to_number(cell_of(row.cells, lon)).value_or(kMissing);
+            site.name = shown(cell_of(row.cells, city));
+            if (const auto s = to_number(cell_of(row.cells, zone)); s && std::abs(*s) <= 14.0 * 3600.0)
                 site.utc_offset_h = *s / 3600.0;
         }
         if (where != place) {
             others = true;
-            continue;
+            return;
         }
         Hour& h = hours.emplace_back();
-        h.time_us = *seconds * 1000000;
-        h.line = lines.number();
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            const auto cell = cell_of(cells, at[i]);
-            h.*kNames[i].value = to_number(cell).value_or(kMissing);
-            if (std::isnan(h.*kNames[i].value) && !trimmed(cell).empty() && ++odd <= kMostTold)
-                rows.note(ReadNote::Kind::OutOfRange, h.line, kNames[i].csv,
-                          "'" + shown(cell) + "' is not a number, taken as missing");
-        }
-    }
+        h.time_us = row.time_us;
+        h.line = row.line;
+        numbers.read(row.cells, h.line, h);
+    });
     if (others)
         rows.note(ReadNote::Kind::Warning, 0, "station",
                   "several places in the file, only the first, " + rows.site().name +

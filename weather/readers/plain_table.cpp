@@ -238,37 +238,22 @@ std::optional<double> cell_number(std::string_view text, const PlainTable& table
     return to_number(point);
 }
 
-std::vector<TimedRow> rows_in_order(const PlainTable& table, const CsvTimes& times, RowOrder& order)
+RowOrder put_in_order(std::vector<TimedRow>& rows, bool all)
 {
-    std::vector<TimedRow> rows;
-    std::vector<std::string_view> cells;
-    Lines lines = table.rows();
-    bool falls = false, rises = false;
-    std::int64_t last = 0;
-    bool have_last = false;
-    while (const auto line = lines.next()) {
-        if (is_comment(*line)) continue;
-        TimedRow row{*line, lines.number(), last, false};
-        table.cells(*line, cells);
-        if (cells.size() == table.names.size()) {
-            if (const auto us = times.time_of(cells)) {
-                row.time_us = *us;
-                row.timed = true;
-            }
+    RowOrder order;
+    const TimedRow* last = nullptr;
+    bool rises = false;
+    for (const TimedRow& row : rows) {
+        if (!row.timed) continue;
+        if (last) {
+            order.moved += row.time_us < last->time_us;
+            rises = rises || row.time_us > last->time_us;
         }
-        if (row.timed) {
-            if (have_last && row.time_us < last) {
-                falls = true;
-                ++order.moved;
-            }
-            rises = rises || (have_last && row.time_us > last);
-            last = row.time_us;
-            have_last = true;
-        }
-        rows.push_back(row);
+        last = &row;
     }
-    if (falls) {
-        order.newest_first = !rises;
+    order.newest_first = order.moved > 0 && !rises;
+    if (!order.newest_first && !all) order.moved = 0;
+    if (order.moved > 0) {
         std::stable_sort(rows.begin(), rows.end(), [](const TimedRow& a, const TimedRow& b) {
             return a.time_us < b.time_us;
         });
@@ -279,6 +264,46 @@ std::vector<TimedRow> rows_in_order(const PlainTable& table, const CsvTimes& tim
     const auto end = std::unique(rows.begin(), rows.end(), same);
     order.repeated = static_cast<std::size_t>(rows.end() - end);
     rows.erase(end, rows.end());
+    return order;
+}
+
+void note_order(const RowOrder& order, RowCollector& out)
+{
+    if (order.moved > 0) {
+        out.note(ReadNote::Kind::Time, 0, "time",
+                 order.newest_first ? std::string("the newest row stands first: read from the end")
+                                    : std::to_string(order.moved) +
+                                          (order.moved == 1 ? " row stands" : " rows stand") +
+                                          " behind a later one: read in the order of their times");
+    }
+    if (order.repeated > 0) {
+        out.note(ReadNote::Kind::Time, 0, "time",
+                 std::to_string(order.repeated) +
+                     (order.repeated == 1 ? " row stands" : " rows stand") +
+                     " in the file again, letter by letter: read once");
+    }
+}
+
+std::vector<TimedRow> rows_in_order(const PlainTable& table, const CsvTimes& times, RowOrder& order)
+{
+    std::vector<TimedRow> rows;
+    std::vector<std::string_view> cells;
+    Lines lines = table.rows();
+    std::int64_t last = 0;
+    while (const auto line = lines.next()) {
+        if (is_comment(*line)) continue;
+        TimedRow row{*line, lines.number(), last, false};
+        table.cells(*line, cells);
+        if (cells.size() == table.names.size()) {
+            if (const auto us = times.time_of(cells)) {
+                row.time_us = *us;
+                row.timed = true;
+            }
+        }
+        if (row.timed) last = row.time_us;
+        rows.push_back(row);
+    }
+    order = put_in_order(rows, true);
     return rows;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "weather/readers/collector.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/text.h"
 
@@ -64,6 +65,12 @@ struct RowOrder {
     bool newest_first = false;  ///< all of them
     std::size_t repeated = 0;   ///< rows that stand in the table again, letter by letter: left out
 };
+
+/// Puts rows in the order of their times and takes out those that stand there again. Of rows that
+/// are neither in order nor newest first throughout only where `all` are meant to be sorted: in a
+/// file of an archive they may be those of two stations.
+RowOrder put_in_order(std::vector<TimedRow>& rows, bool all);
+void note_order(const RowOrder& order, RowCollector& out);
 
 /// Rows in the order of their times, those without one behind the row that they follow.
 std::vector<TimedRow> rows_in_order(const PlainTable& table, const CsvTimes& times,

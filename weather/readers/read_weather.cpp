@@ -175,7 +175,7 @@ void refuse_other_scale(const ForcingTable& table, const std::string& format)
 void check_light(const ForcingTable& table, ReadReport& report)
 {
     constexpr std::size_t kFewDays = 5;
-    constexpr double kFewLight_w_m2 = 30.0, kLeast = 0.1, kMost = 1.6;
+    constexpr double kFewLight_w_m2 = 30.0, kNever = 0.01, kLeast = 0.1, kMost = 1.6;
     constexpr std::int64_t kDay_us = 86400LL * 1000000;
     const Site& site = table.site;
     if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) ||
@@ -201,12 +201,13 @@ void check_light(const ForcingTable& table, ReadReport& report)
         clear += clear_sky_w_m2(SunNear(us, observer).at(us).up) * static_cast<double>(width);
         known_us += width;
     }
-    if (share.size() < kFewDays) return;
+    if (share.empty()) return;
+    const bool few = share.size() < kFewDays;
     std::sort(share.begin(), share.end());
     const double most = share.back(), middle = share[share.size() / 2];
     // A week of thick cloud is as dark as a tenth; a month is not, nor is every other day brighter
-    // than a clear one.
-    const bool dark = most<kLeast, bright = middle> kMost;
+    // than a clear one. No cloud is as dark as a hundredth all day.
+    const bool dark = most < (few ? kNever : kLeast), bright = !few && middle > kMost;
     if (!dark && !bright) return;
     char said[200];
     std::snprintf(said, sizeof said,

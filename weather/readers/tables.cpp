@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/metar.h"
+#include "weather/readers/table_rows.h"
 
 namespace petrichor::weather {
 
@@ -44,32 +45,15 @@ void read_table_rows(Lines& lines, const TableHeader& header, const TableRows& h
     for (const TableColumn& c : how.columns) {
         if (header.has(c.name)) columns.push_back({&c, header.at(c.name)});
     }
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, how.separator, cells, 1024);
-        if (how.skip && how.skip(cells)) continue;
-        const auto us = how.time_of(cells);
-        if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no time");
-            continue;
-        }
-        if (!rows.begin_row(*us, lines.number())) continue;
+    const DatedRows dated{how.separator, how.time_of, how.skip};
+    for_dated_rows(lines, dated, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
-            const auto cell = cell_of(cells, c.at);
-            const auto value = how.value_of(cell);
-            const TableColumn& m = *c.meaning;
-            if (!value)
-                rows.missing(m.field);
-            else if (std::isnan(*value))
-                rows.unreadable(m.field, cell);
-            else if (m.fell_hours > 0.0)
-                rows.fell_before(m.field, *value * m.scale, m.fell_hours);
-            else
-                rows.set(m.field, *value * m.scale + m.offset);
+            const auto cell = cell_of(row.cells, c.at);
+            put_cell(*c.meaning, cell, how.value_of(cell), rows);
         }
-        if (how.also) how.also(cells);
-    }
+        if (how.also) how.also(row.cells);
+    });
     rows.unread_columns(header.unread());
 }
 

@@ -12,6 +12,7 @@
 #include "weather/readers/air_scale.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/json.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
 namespace petrichor::weather {
@@ -27,10 +28,7 @@ struct Hour {
            cloud = kMissing, visibility = kMissing, solar = kMissing;
     bool rain = false, snow = false;  // of preciptype
 };
-struct Name {
-    const char* name;
-    double Hour::*value;
-};
+using Name = NumberColumn<Hour>;
 constexpr Name kNames[] = {{"temp", &Hour::temp},
                            {"dew", &Hour::dew},
                            {"humidity", &Hour::humidity},
@@ -95,24 +93,18 @@ void put(const std::vector<Hour>& hours, RowCollector& rows, const ReadOptions& 
     for (const Hour& h : hours) {
         if (!rows.begin_row(h.time_us, h.line)) continue;
         const double air_k = h.temp * units.kelvin.scale + units.kelvin.offset;
-        const auto set = [&](Field field, double raw, double si) {
-            if (std::isnan(raw))
-                rows.missing(field);
-            else
-                rows.set(field, si);
-        };
-        set(Field::AirTemp, h.temp, air_k);
-        set(Field::DewPoint, h.dew, h.dew * units.kelvin.scale + units.kelvin.offset);
-        set(Field::RelHumidity, h.humidity, h.humidity);
-        set(Field::Precip, h.precip, h.precip * units.precip / step_s);
-        set(Field::SnowDepth, h.snow_depth, h.snow_depth * units.depth);
-        set(Field::Wind, h.wind, h.wind * units.wind);
-        set(Field::WindFrom, h.wind_from, h.wind_from);
-        set(Field::Pressure, h.sea_level,
-            station_pressure_pa(h.sea_level * 100.0, elevation, air_k));
-        set(Field::Cloud, h.cloud, h.cloud * 0.01);
-        set(Field::Visibility, h.visibility, h.visibility * units.visibility);
-        set(Field::Shortwave, h.solar, h.solar);
+        const auto set = [&](Field field, double si) { put_value(field, si, rows); };
+        set(Field::AirTemp, air_k);
+        set(Field::DewPoint, h.dew * units.kelvin.scale + units.kelvin.offset);
+        set(Field::RelHumidity, h.humidity);
+        set(Field::Precip, h.precip * units.precip / step_s);
+        set(Field::SnowDepth, h.snow_depth * units.depth);
+        set(Field::Wind, h.wind * units.wind);
+        set(Field::WindFrom, h.wind_from);
+        set(Field::Pressure, station_pressure_pa(h.sea_level * 100.0, elevation, air_k));
+        set(Field::Cloud, h.cloud * 0.01);
+        set(Field::Visibility, h.visibility * units.visibility);
+        set(Field::Shortwave, h.solar);
         if (h.rain || h.snow) rows.set(Field::SnowShare, h.rain ? (h.snow ? 0.5 : 0.0) : 1.0);
     }
 }
@@ -130,39 +122,24 @@ void read_csv(std::string_view text, RowCollector& rows, const ReadOptions& opti
     if (header.has("tempmax")) refuse_days();
     const std::size_t stamp = header.at("datetime"), kind = header.at("preciptype"),
                       latitude = header.at("latitude"), longitude = header.at("longitude");
-    std::vector<std::size_t> at;
-    for (const Name& n : kNames) at.push_back(header.at(n.name));
+    NumberColumns<Hour> numbers(header, kNames, rows);
     rows.unread_columns(header.unread());
     note_unknown_zone(rows, options,
                       "that of the place, with summer time where it has any (JSON has UTC beside)");
-    constexpr std::size_t kMostTold = 5;
-    std::size_t odd = 0;
     std::vector<Hour> hours;
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', cells, 256);
-        const auto us = us_from_iso(cell_of(cells, stamp));
-        if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no time");
-            continue;
-        }
+    const DatedRows how{
+        .time_of = [&](const Cells& cells) { return us_from_iso(cell_of(cells, stamp)); }};
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         Hour& h = hours.emplace_back();
-        h.time_us = *us;
-        h.line = lines.number();
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            const auto cell = cell_of(cells, at[i]);
-            h.*kNames[i].value = to_number(cell).value_or(kMissing);
-            if (std::isnan(h.*kNames[i].value) && !trimmed(cell).empty() && ++odd <= kMostTold)
-                rows.note(ReadNote::Kind::OutOfRange, h.line, kNames[i].name,
-                          "'" + shown(cell) + "' is not a number, taken as missing");
-        }
-        add_kind(h, cell_of(cells, kind));
+        h.time_us = row.time_us;
+        h.line = row.line;
+        numbers.read(row.cells, h.line, h);
+        add_kind(h, cell_of(row.cells, kind));
         if (std::isnan(rows.site().latitude_deg)) {
-            rows.site().latitude_deg = to_number(cell_of(cells, latitude)).value_or(kMissing);
-            rows.site().longitude_deg = to_number(cell_of(cells, longitude)).value_or(kMissing);
+            rows.site().latitude_deg = to_number(cell_of(row.cells, latitude)).value_or(kMissing);
+            rows.site().longitude_deg = to_number(cell_of(row.cells, longitude)).value_or(kMissing);
         }
-    }
+    });
     put(hours, rows, options);
 }
 

@@ -13,6 +13,7 @@
 #include "weather/physics/constants.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
 namespace petrichor::weather {
@@ -112,34 +113,6 @@ bool is_header(std::string_view line)
            std::count(line.begin(), line.end(), ',') >= 2;
 }
 
-// Which of day and month comes first, as asked or as a row shows.
-DateOrder order_of(Lines lines, std::size_t stamp, const ReadOptions& options)
-{
-    if (options.date_order != DateOrder::Unknown) return options.date_order;
-    DateOrders orders;
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', cells, 1024);
-        orders.add(cell_of(cells, stamp));
-    }
-    if (orders.order() != DateOrder::Unknown) return orders.order();
-    if (orders.either().empty()) return DateOrder::Unknown;
-    throw Error("weather: WeatherLink: dates are as '" + orders.either() +
-                    "', and no row shows whether the day or the month comes first",
-                "Say --date-order dmy or mdy (in a scenario [weather] date_order).");
-}
-
-std::optional<double> degrees_of(std::string_view text)
-{
-    constexpr const char* kPoints[] = {"n", "nne", "ne", "ene", "e", "ese", "se", "sse",
-                                       "s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw"};
-    const std::string low = lower(text);
-    for (int i = 0; i < 16; ++i)
-        if (low == kPoints[i]) return 22.5 * i;
-    return to_number(text);
-}
-
 void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
     Lines lines(text);
@@ -158,15 +131,11 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     const std::vector<Column> columns = columns_of(header);
     rows.unread_columns(header.unread());
     note_unknown_zone(rows, options, "that of the station, with summer time where it keeps it");
-    const DateOrder order = order_of(lines, stamp, options);
-    std::vector<std::int64_t> times;
-    std::vector<std::string_view> cells;
-    for (Lines again = lines; const auto line = again.next();) {
-        split(*line, ',', cells, 1024);
-        const auto us = time_of_cell(cell_of(cells, stamp), order);
-        if (us && (times.empty() || *us > times.back())) times.push_back(*us);
-    }
-    const double hours = static_cast<double>(usual_step_us(times)) / 3600e6;
+    const DateOrder order = date_order_of(lines, ',', stamp, "WeatherLink", options);
+    const DatedRows how{.time_of = [&](const Cells& cells) {
+        return time_of_cell(cell_of(cells, stamp), order);
+    }};
+    const double hours = usual_step_h(lines, how);
     for (const Column& c : columns) {
         if (c.quantity->field == Field::Shortwave) rows.means_of_past(Field::Shortwave);
         if (c.quantity->sea_level)
@@ -175,33 +144,24 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                           ? "given for sea level; give the elevation to bring it down"
                           : "given for sea level, brought to the station");
     }
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', cells, 1024);
-        const auto us = time_of_cell(cell_of(cells, stamp), order);
-        if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no time");
-            continue;
-        }
-        if (!rows.begin_row(*us, lines.number())) continue;
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
-            const Field field = c.quantity->field;
-            const auto cell = trimmed(cell_of(cells, c.at));
-            const auto value = field == Field::WindFrom ? degrees_of(cell) : to_number(cell);
-            if (cell.empty() || cell == "--" || cell == "---") {
-                rows.missing(field);
-            } else if (!value) {
-                rows.unreadable(field, cell);
-            } else if (field == Field::Precip) {
-                rows.fell_before(field, *value * c.scale, hours);
-            } else {
-                const double si = *value * c.scale + c.offset;
-                rows.set(field, c.quantity->sea_level
-                                    ? station_pressure_pa(si, options.site.elevation_m, kMissing)
-                                    : si);
+            TableColumn column{{}, c.quantity->field, c.scale, c.offset};
+            if (column.field == Field::Precip) column.fell_hours = hours;
+            const auto cell = trimmed(cell_of(row.cells, c.at));
+            auto value = number_or_none(cell, {"--", "---"});
+            if (value && column.field == Field::WindFrom)
+                value = compass_deg(cell).value_or(*value);
+            if (value && c.quantity->sea_level) {
+                value = station_pressure_pa(*value * c.scale + c.offset, options.site.elevation_m,
+                                            kMissing);
+                column.scale = 1.0;
+                column.offset = 0.0;
             }
+            put_cell(column, cell, value, rows);
         }
-    }
+    });
 }
 
 bool recognise(const FileHead& head)

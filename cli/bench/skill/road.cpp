@@ -74,12 +74,20 @@ std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalPar
     const ForcingTable table = table_of(road, begin_us, p.surface.emissivity);
     const weather::CellState start =
         weather::observed_start(table, p, temperatures(road, last + 1));
-    const weather::PhysicalTimeline run(table, p, start, table.time_us.front());
-    ErrorSum ours, air, conditions;
+    const auto run_with = [&](double traffic_wind_m_s) {
+        weather::PhysicalParams stirred = p;
+        stirred.surface.traffic_wind_m_s = traffic_wind_m_s;
+        return weather::PhysicalTimeline(table, stirred, start, table.time_us.front());
+    };
+    // METRo's vehicles do not stir the air.
+    const weather::PhysicalTimeline run = run_with(0.0),
+                                    in_use = run_with(params.surface.traffic_wind_m_s);
+    ErrorSum ours, used, air, conditions;
     for (std::size_t i = 0; i < road.roadcast.time_us.size(); ++i) {
         const double metro_c = road.roadcast.surface_c[i];
         const weather::CellState cell = run.state_at(road.roadcast.time_us[i]);
         ours.add(cell.surface_temp_c - metro_c);
+        used.add(in_use.state_at(road.roadcast.time_us[i]).surface_temp_c - metro_c);
         air.add(road.roadcast.air_c[i] - metro_c);
         const int metro = road.roadcast.condition[i];
         if (metro > 0)
@@ -89,6 +97,7 @@ std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalPar
     other.unit = "share";
     other.measure = "of hours";
     return {row_of(road, "road beside METRo", ours),
+            row_of(road, "with traffic's wind", used),
             row_of(road, "air beside METRo", air), other};
 }
 

@@ -20,8 +20,9 @@ struct RoadCase {
 };
 
 /// Mean absolute difference to METRo's road temperature, under the air and radiation that METRo
-/// used, from the measured start; and beside it that of the air. Snow on the road counts. `params`
-/// are of a road or a bridge; its layers are the station's.
+/// used, from the measured start, without the wind of traffic, which METRo does not have, and with
+/// it; and beside them that of the air. Snow on the road counts. `params` are of a road or a bridge;
+/// its layers are the station's.
 std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalParams& params);
 
 }  // namespace petrichor::cli

@@ -31,7 +31,8 @@ struct CellConstants {
     double heat_roughness = 0.0;  // ln(10 z0h / z0) of the bare surface; of snow 0
     double neutral_bare;          // exchange coefficient without snow
     double leaf_exchange = 0.0;   // of leaves in a wind of 1 m/s, kg m-2 s-1; it grows with its root
-    double convection_bare, convection_snow, inverse_cover_depth, least_wind;
+    double convection_bare, convection_snow, inverse_cover_depth, least_wind,
+        least_wind_by_night;
     // water
     double film_capacity, inverse_film_capacity, crack_capacity, puddle_capacity;
     bool permeable = false;

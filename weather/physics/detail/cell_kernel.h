@@ -53,6 +53,12 @@ PETRICHOR_INLINE void update_frozen_fraction(CellVars<Real>& c, const Real& all,
         unit_clamped(select(all < 0.01, falling, frozen / larger(all, Real(1e-30))));
 }
 
+// Vehicles stir the air above a road, fewer of them by night.
+inline double least_wind_at(const StationMoment& m, const CellConstants& k)
+{
+    return m.shortwave > 0.0 ? k.least_wind : k.least_wind_by_night;
+}
+
 // One model step for one cell, `parts` substeps of equal length.
 template <class Real>
 PETRICHOR_KERNEL void advance_parts(CellVars<Real>& c, const StepForcing& step,
@@ -71,11 +77,13 @@ PETRICHOR_KERNEL void advance_parts(CellVars<Real>& c, const StepForcing& step,
     const double share = 1.0 / parts;
     CellWeather<Real> w;
     for (int i = 0; i < parts; ++i) {
+        const auto at = [&](const StationMoment& m) {
+            weather_at(day, m, place, least_wind_at(m, k), w);
+        };
         if (parts == 1)
-            weather_at(day, step.middle, place, k.least_wind, w);
+            at(step.middle);
         else
-            weather_at(day, moment_of(step, (i + 0.5) / parts, (i + 1.0) / parts), place,
-                       k.least_wind, w);
+            at(moment_of(step, (i + 0.5) / parts, (i + 1.0) / parts));
         melting += advance_substep(c, w, rain, snow, resistivity, k, part, share);
     }
     age_albedo(c, melting, k, s);
@@ -133,7 +141,8 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
         Real new_density = kUnusedDensity_kg_m3;
         if (any(snow > zero)) {
             const Real mid_c = shift_of(place) + step.air_c.at(0.5);
-            const Real mid_wind = larger(place.wind_factor * step.wind.at(0.5), Real(k.least_wind));
+            const Real mid_wind =
+                larger(place.wind_factor * step.wind.at(0.5), Real(least_wind_at(step.middle, k)));
             new_density = select(snow > zero, new_snow_density_of(k, mid_c, mid_wind), new_density);
         }
         age_snow(c, snow * step.dt_s, new_density, k, s, step.dt_s, resistivity);

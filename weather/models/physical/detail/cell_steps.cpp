@@ -17,6 +17,7 @@ namespace {
 // The day's course of sun and air asks for this much, however long a step is.
 constexpr double kLongestPart_s = 3600.0;
 constexpr std::int64_t kDay_us = 86400 * kMicrosPerSecond;
+constexpr double kTrafficByNight = 0.4 / 1.5;  // of its wind by day
 constexpr double kPlainDeck_m = 0.3;        // of a bridge or a wall whose layers are not given
 constexpr double kOuterWall_m2_k_w = 0.04;  // of a wall in the wind (ISO 6946)
 constexpr double kInRoom_m2_k_w = 0.13;     // and in a room
@@ -243,6 +244,8 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
         convection_of(k.log_wind_height - k.log_snow_roughness, logarithm(10.0));  // z0h = z0 / 10
     k.inverse_cover_depth = 1.0 / params.snow.cover_depth_m;
     k.least_wind = std::max(params.exchange.min_wind_m_s, s.traffic_wind_m_s);
+    k.least_wind_by_night =
+        std::max(params.exchange.min_wind_m_s, kTrafficByNight * s.traffic_wind_m_s);
     k.film_capacity = s.film_capacity_kg_m2;
     k.inverse_film_capacity = 1.0 / s.film_capacity_kg_m2;
     k.crack_capacity = s.cracks.capacity_kg_m2();
