@@ -55,6 +55,7 @@
 #include "formulas/weather/gusts.h"
 #include "formulas/weather/land_relief.h"
 #include "formulas/weather/ice_pattern.h"
+#include "formulas/weather/lost_slopes.h"
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
@@ -68,7 +69,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 78;
+SHARED_CONST int kProbeKinds = 79;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -675,6 +676,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 77) {
         const vec3 passes = water_passes(0.5f * a.x * water_way(a.y));
         return vec4(passes.x, passes.y, passes.z, murk_hides(a.z, 0.2f * a.w, water_way(b.x)) + water_depth_of(water_depth_code(b.y)));
+    }
+    if (kind == 78) {
+        const vec3 n = normalize(vec3(a.x - 0.5f, a.y - 0.5f, 0.2f + a.z));
+        const float lost = lost_slopes(0.5f * b.x + slope_2(n) * b.y, n);
+        return vec4(1.0f + slope_2(n), 1.0f + lost, with_lost_slopes(0.1f + 0.9f * b.z, lost), 0.0f);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -19,9 +19,9 @@ SHARED_FN float curtain_away(int k) { return k == 0 ? 1.5f : k == 1 ? 3.1f : 6.4
 // the view there, of what falls thicker and thinner.
 SHARED_FN float curtain_cell(vec2 at, float streak, uint seed)
 {
-    const float cell = 0.7f * endless_noise(at * 0.62f, seed) + 0.3f * endless_noise(at * 1.7f + splat2(5.0f), seed + 1u);
-    const float t = clamp((cell - 0.42f) / 0.3f, 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t) * (0.6f + 0.8f * streak);
+    const float cell = 0.8f * endless_noise(at * 0.55f, seed) + 0.2f * endless_noise(at * 1.3f + splat2(5.0f), seed + 1u);
+    const float t = clamp((cell - 0.37f) / 0.4f, 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t) * (0.8f + 0.4f * streak);
 }
 
 // Radiance over that without curtains, and how much of it is of their own grey, 0..1, in a direction with y >= 0. lean: of what
@@ -36,15 +36,21 @@ SHARED_FN vec2 rain_curtains(vec3 direction, vec2 drift_m, vec2 lean, float rain
     for (int k = 0; k < kCurtains; ++k) {
         const float away = curtain_away(k);
         const float height = rise * away;
-        // Rags and the bulge of its cell hide where a curtain begins.
-        const float t = clamp((height - 0.35f) / 0.65f, 0.0f, 1.0f);
+        // Showers start and end, and gusts carry their rain aside on its way: a curtain is no wall over a line of the land. Its
+        // sides wander as it comes down, it begins at the height of its own clouds, and rags hide where.
+        const vec2 sideways = vec2(ahead.y, -ahead.x);
+        const vec2 woven = ahead * (2.6f + 0.9f * away) + sideways * (1.7f * height) + splat2(0.37f * height) + drift_m * (0.3f * kCloudDrift_per_m);
+        const float wander = endless_noise(woven, 370u + uint(k)) - 0.5f;
+        const float begins = 0.35f + 0.5f * (endless_noise(ahead * (1.3f + 0.5f * away) + splat2(3.0f), 373u + uint(k)) - 0.5f);
+        const float t = clamp((height - begins) / (1.0f - begins), 0.0f, 1.0f);
         const float hangs = 1.0f - t * t * (3.0f - 2.0f * t);
         beside = max(beside, hangs);
-        const vec2 at = ahead * away + drift_m * kCloudDrift_per_m * 0.45f + lean * height + splat2(50.0f + 9.0f * float(k));
+        const vec2 at = ahead * away + drift_m * kCloudDrift_per_m * 0.45f + lean * height +
+                        sideways * (0.9f * wander) + splat2(50.0f + 9.0f * float(k));
         const float across = lean.x * ahead.y - lean.y * ahead.x;
-        const float aside = across * height;
-        const vec2 fine = (ahead + vec2(ahead.y, -ahead.x) * (aside / away)) * (9.0f + 2.0f * away);
-        const float streak = 0.6f * endless_noise(fine, 360u + uint(k)) + 0.4f * endless_noise(fine * 3.3f, 363u + uint(k));
+        const float aside = across * height + 0.5f * wander;
+        const vec2 fine = (ahead + sideways * (aside / away)) * (7.0f + 1.2f * away);
+        const float streak = 0.7f * endless_noise(fine, 360u + uint(k)) + 0.3f * endless_noise(fine * 2.3f, 363u + uint(k));
         passes *= exp(-1.9f * rain * hangs * curtain_cell(at, streak, 350u + 3u * uint(k)));
     }
     // Where the layer ends, some ten of its heights away, daylight comes in below it; what curtains take there is between them.

@@ -71,6 +71,30 @@ TEST(RainCurtains, LightTheGroundAsNone)
     }
 }
 
+// Their sides are soft and wander: a stripe with a hard edge from the land to the clouds is no rain. By half a degree aside, and by the
+// same edge higher up.
+TEST(RainCurtains, AreNoStripes)
+{
+    std::vector<float> steps;
+    double same = 0.0, all = 0.0;
+    for (int wind = 0; wind < 12; ++wind) {
+        const glm::vec2 drift_m(913.0f * static_cast<float>(wind), 571.0f * static_cast<float>(wind % 5));
+        const auto seen = [&](float angle, float rise) {
+            return rain_curtains(glm::normalize(glm::vec3(std::cos(angle), rise, std::sin(angle))), drift_m, {0.0f, 0.0f}, 1.0f).x;
+        };
+        for (int i = 0; i < 720; ++i) {
+            const float angle = glm::radians(0.5f * static_cast<float>(i)), next = glm::radians(0.5f * static_cast<float>(i + 1));
+            const float low = seen(next, 0.05f) - seen(angle, 0.05f), high = seen(next, 0.11f) - seen(angle, 0.11f);
+            steps.push_back(std::abs(low));
+            same += static_cast<double>(low * high);
+            all += static_cast<double>(0.5f * (low * low + high * high));
+        }
+    }
+    std::sort(steps.begin(), steps.end());
+    EXPECT_LT(steps[steps.size() * 99 / 100], 0.1f);
+    EXPECT_LT(same / all, 0.6);
+}
+
 // Rain that is blown aside hangs at a slant, the way it is blown; across the wind that is seen, along it not.
 TEST(RainCurtains, LeanWithTheWind)
 {

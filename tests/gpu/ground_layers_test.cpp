@@ -167,6 +167,71 @@ TEST_F(GroundLayers, FromAfarItIsOneColor)
     EXPECT_NEAR(at(30.0f), far, 0.01f);
 }
 
+// What the bumps of layers lose to each other and from afar is roughness.
+TEST_F(GroundLayers, LostSlopesAreRoughness)
+{
+    Material m = layered();
+    m.second.third.normal_texture.texture = 1;
+    m.second.fourth.normal_texture.texture = 2;
+    m.second.third.roughness = m.second.fourth.roughness = 0.3f;
+    m.second.far_texture.texture = 3;
+    const float lean = 2.0f * 178.0f / 255.0f - 1.0f;
+    const float slope_2 = lean * lean / (1.0f - lean * lean);
+    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+        const auto seen = [&](const glm::ivec4& weights, float far_start_m) {
+            m.second.far_start_m = far_start_m;
+            m.second.far_fade_m = 0.0f;
+            Frame frame = from_above({"normal", "roughness"});
+            frame.settings.surface_path = path;
+            const auto r = shot(scene_of({ground()}, {m}), frame,
+                                {even(weights), even({178, 128, 230, 255}), even({77, 128, 230, 255}), even({90, 90, 90, 255})});
+            return glm::vec2(aov(r, "normal", 24, 24, 0), aov(r, "roughness", 24, 24));
+        };
+        const glm::vec2 one = seen({0, 0, 255, 0}, 100.0f), both = seen({0, 0, 128, 128}, 100.0f), far = seen({0, 0, 255, 0}, 0.0f);
+        EXPECT_NEAR(one.x, lean, 0.02f);
+        EXPECT_NEAR(one.y, 0.3f, 0.01f) << "nothing is lost of what is seen";
+        const float rough = std::pow(std::pow(0.3f, 4.0f) + slope_2, 0.25f);
+        EXPECT_NEAR(both.x, 0.0f, 0.02f);
+        EXPECT_NEAR(both.y, rough, 0.02f);
+        EXPECT_NEAR(far.x, 0.0f, 0.01f);
+        EXPECT_NEAR(far.y, rough, 0.02f);
+    }
+}
+
+// So that a wet valley keeps its light where its bumps fade: over the whole of a highlight it is what the bumps mirrored.
+TEST_F(GroundLayers, AHighlightKeepsItsLightFromAfar)
+{
+    // Bumps that lean in all directions, finer than the pixels are wide, so that samples see all of them.
+    const Texture bumps = texture_of([](int x, int y) {
+        const float angle = 6.2831853f * static_cast<float>((5 * x + 3 * y) % 8) / 8.0f;
+        const float lean = 0.12f + 0.3f * static_cast<float>((3 * x + y) % 4) / 3.0f;
+        return glm::ivec4(std::lround(127.5f * (1.0f + lean * std::cos(angle))), std::lround(127.5f * (1.0f + lean * std::sin(angle))), 230, 255);
+    });
+    Material m = layered(glm::vec4(0.0f));
+    m.second.third.normal_texture.texture = 1;
+    m.second.third.roughness = 0.25f;
+    m.second.third.tiling = glm::vec2(48.0f);
+    m.second.far_texture.texture = 2;
+    m.second.far_fade_m = 0.0f;
+    const auto light = [&](float far_start_m) {
+        m.second.far_start_m = far_start_m;
+        Frame frame;
+        frame.camera = look({0, 1, 0}, {0, 0, 0}, 2.2f);
+        frame.settings.width = frame.settings.height = kSize;
+        frame.settings.samples = 16;
+        frame.settings.aovs = {"specular_direct"};
+        frame.sky.sun_elevation_rad = 1.5707f;
+        frame.settings.shelter = false;
+        const auto r = shot(scene_of({quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8})}, {m}), frame, {even({0, 0, 255, 0}), bumps, even({0, 0, 0, 255})});
+        double sum = 0.0;
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x) sum += static_cast<double>(aov(r, "specular_direct", x, y, 1));
+        return sum;
+    };
+    const double near = light(1000.0f), far = light(0.0f);
+    EXPECT_NEAR(far / near, 1.0, 0.3);
+}
+
 // Lux draws a terrain again for the next four layers; here their mesh is a decal on it.
 TEST_F(GroundLayers, FourMoreLieOverThem)
 {

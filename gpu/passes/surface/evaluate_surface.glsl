@@ -194,6 +194,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.occlusion = occlusion;
     data.texel.base_normal = normal;
     data.texel.cover_normal = SURFACE_WEATHER != 0 ? cover.normal : normal;
+    if (LAYERED && has_mapped_normal()) roughness = with_lost_slopes(roughness, ground_lost);
     data.texel.roughness = widened_by_curvature(roughness, at);
     data.texel.porosity = porosity;
     data.texel.model = material.lighting_model;

@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_GROUND_LAYERS_GLSL
 #define PETRICHOR_SURFACE_GROUND_LAYERS_GLSL
 
+#include "formulas/weather/lost_slopes.h"
 #include "formulas/weather/mix_sets.h"
 #include "gpu/passes/surface/layer_slots.glsl"
 
@@ -59,6 +60,9 @@ vec3 normal_of_layer(int role, SurfaceInput at, vec2 shift)
     return has_layer(role) ? unpack_normal(layer_texel(role, at, shift, 1.0).xy, 1.0) : vec3(0.0, 0.0, 1.0);
 }
 
+// What the last normal of ground hides of the slopes of its layers.
+float ground_lost = 0.0;
+
 vec3 normal_of_ground(SurfaceInput at, vec2 shift)
 {
     vec3 first = vec3(0.0, 0.0, 1.0), second = first;
@@ -70,10 +74,12 @@ vec3 normal_of_ground(SurfaceInput at, vec2 shift)
         second = unpack_normal(texel(second_normal_texture, coordinates(TEXTURE_SECOND_NORMAL, at, shift)).xy,
                                material.second_normal_scale);
     }
-    const vec3 n = first * at.ground.x + second * at.ground.y +
-                   normal_of_layer(LAYER_TEXTURE_THIRD + 1, at, shift) * at.ground.z +
-                   normal_of_layer(LAYER_TEXTURE_FOURTH + 1, at, shift) * at.ground.w;
-    return normalize(mix(n, vec3(0.0, 0.0, 1.0), at.far));
+    const vec3 third = normal_of_layer(LAYER_TEXTURE_THIRD + 1, at, shift);
+    const vec3 fourth = normal_of_layer(LAYER_TEXTURE_FOURTH + 1, at, shift);
+    const vec3 n = first * at.ground.x + second * at.ground.y + third * at.ground.z + fourth * at.ground.w;
+    const vec3 seen = normalize(mix(n, vec3(0.0, 0.0, 1.0), at.far));
+    ground_lost = lost_slopes(dot(at.ground, vec4(slope_2(first), slope_2(second), slope_2(third), slope_2(fourth))), seen);
+    return seen;
 }
 
 // Occlusion, roughness and metallic of a layer behind the first two. Without a texture it is no metal.
