@@ -4,6 +4,7 @@
 #include "scene/basins/water.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/patches.h"
+#include "gpu/place/place_parts.h"
 #include "gpu/place/place_tree.h"
 #include "tests/gpu/gpu_fixture.h"
 #include "tests/gpu/place_street.h"
@@ -340,6 +341,20 @@ TEST_F(PlaceTest, ADeepPondHasAColourOfItsOwn)
     }
 }
 
+// Every third patch in three parts, along its diagonal.
+std::shared_ptr<PlaceShape> with_parts(const PlaceShape& shape, std::uint32_t patches)
+{
+    auto parted = std::make_shared<PlaceShape>(shape);
+    std::uint32_t first = 0;
+    for (std::uint32_t i = 0; i < patches; i += 3, first += 3) {
+        PlaceParts parts{i, first, 3, {}};
+        for (std::size_t k = 0; k < parts.of_cell.size(); ++k)
+            parts.of_cell[k] = static_cast<std::uint8_t>((k % 8 + k / 8) / 5);
+        append_parts(parted->table, parts);
+    }
+    return parted;
+}
+
 // Each pixel has the weather of the very patch that the C++ text of the lookup names.
 TEST_F(PlaceTest, PixelsFindThePatchThatTheirFormulaNames)
 {
@@ -354,39 +369,50 @@ TEST_F(PlaceTest, PixelsFindThePatchThatTheirFormulaNames)
     renderer->load(street, {});
     shape->grid = scene::table_grid(patches);
     shape->table = patches.table;
-    auto place = dry();
     const auto film_of = [](std::uint32_t patch) { return static_cast<float>(patch % 251) / 255.0f; };
-    for (std::uint32_t i = 0; i < patches.count; ++i) {
-        place->states[i * PLACE_STATE_TEXELS].x = film_of(i);
-        place->states[i * PLACE_STATE_TEXELS + 3].w = static_cast<float>(patches.material[i]);
-    }
-    const PlaceTree tree = place_tree(shape->grid, shape->table, patches.material);
-    Frame frame = from_above(place);
-    frame.camera = look({5, 4, 6}, {0, 0.5f, 0}, 1.0f);
-    frame.settings.width = frame.settings.height = 96;
-    frame.settings.aovs = {"depth", "position", "normal", "film", "material"};
-    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
-        frame.settings.surface_path = path;
-        const RenderResult r = renderer->render(frame);
-        std::size_t seen = 0, wrong = 0, beside = 0;
-        for (int y = 0; y < 96; ++y) {
-            for (int x = 0; x < 96; ++x) {
-                if (std::isinf(aov(r, "depth", x, y))) continue;
-                const glm::vec3 at(aov(r, "position", x, y, 0), aov(r, "position", x, y, 1), aov(r, "position", x, y, 2));
-                const glm::vec3 n(aov(r, "normal", x, y, 0), aov(r, "normal", x, y, 1), aov(r, "normal", x, y, 2));
-                const auto material = static_cast<std::uint32_t>(aov(r, "material", x, y));
-                const glm::vec3 turn = shared::place_turn({x, y}, 0);
-                const shared::PlaceFound found = place_found(tree, at, n, turn, material);
-                if (found.number == shared::kNoPatch) continue;
-                ++seen;
-                wrong += std::abs(aov(r, "film", x, y) - film_of(found.number)) > 1.5e-3f ? 1 : 0;
-                beside += found.number != shared::place_leaf_patch(place_leaves(tree, at, n, glm::vec3(0.0f)).own) ? 1 : 0;
-            }
+    for (const bool parted : {false, true}) {
+        if (parted) shape = with_parts(*shape, patches.count);
+        auto place = dry();
+        std::vector<std::uint32_t> materials = patches.material;
+        for (const PlaceParts& parts : parts_of(shape->table, shape->grid))
+            for (std::uint32_t k = 0; k < parts.count; ++k) materials.push_back(patches.material[parts.patch]);
+        place->states.resize(materials.size() * PLACE_STATE_TEXELS);
+        for (std::uint32_t i = 0; i < materials.size(); ++i) {
+            place->states[i * PLACE_STATE_TEXELS].x = film_of(i);
+            place->states[i * PLACE_STATE_TEXELS + 3].w = static_cast<float>(materials[i]);
         }
-        EXPECT_GT(seen, 4000u);
-        EXPECT_GT(beside, 1000u);
-        // What lies on a border to the last bit, or between two materials.
-        EXPECT_LT(wrong, seen / 100);
+        const PlaceTree tree = place_tree(shape->grid, shape->table, materials);
+        Frame frame = from_above(place);
+        frame.camera = look({5, 4, 6}, {0, 0.5f, 0}, 1.0f);
+        frame.settings.width = frame.settings.height = 96;
+        frame.settings.aovs = {"depth", "position", "normal", "film", "material"};
+        for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+            frame.settings.surface_path = path;
+            const RenderResult r = renderer->render(frame);
+            std::size_t seen = 0, wrong = 0, beside = 0, in_parts = 0;
+            for (int y = 0; y < 96; ++y) {
+                for (int x = 0; x < 96; ++x) {
+                    if (std::isinf(aov(r, "depth", x, y))) continue;
+                    const glm::vec3 at(aov(r, "position", x, y, 0), aov(r, "position", x, y, 1), aov(r, "position", x, y, 2));
+                    const glm::vec3 n(aov(r, "normal", x, y, 0), aov(r, "normal", x, y, 1), aov(r, "normal", x, y, 2));
+                    const auto material = static_cast<std::uint32_t>(aov(r, "material", x, y));
+                    const glm::vec3 turn = shared::place_turn({x, y}, 0);
+                    const shared::PlaceFound found = place_found(tree, at, n, turn, material);
+                    if (found.number == shared::kNoPatch) continue;
+                    ++seen;
+                    in_parts += found.number >= patches.count ? 1 : 0;
+                    wrong += std::abs(aov(r, "film", x, y) - film_of(found.number)) > 1.5e-3f ? 1 : 0;
+                    beside += found.number != shared::place_leaf_patch(place_leaves(tree, at, n, glm::vec3(0.0f)).own) ? 1 : 0;
+                }
+            }
+            EXPECT_GT(seen, 4000u);
+            EXPECT_GT(beside, 1000u);
+            if (parted) {
+                EXPECT_GT(in_parts, 1000u);
+            }
+            // What lies on a border to the last bit, or between two materials.
+            EXPECT_LT(wrong, seen / 100);
+        }
     }
 }
 
