@@ -58,6 +58,7 @@
 #include "formulas/weather/lost_slopes.h"
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
+#include "formulas/weather/drop_births.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/snow_body.h"
 #include "formulas/weather/snow_glints.h"
@@ -69,7 +70,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 79;
+SHARED_CONST int kProbeKinds = 80;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -681,6 +682,13 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 n = normalize(vec3(a.x - 0.5f, a.y - 0.5f, 0.2f + a.z));
         const float lost = lost_slopes(0.5f * b.x + slope_2(n) * b.y, n);
         return vec4(1.0f + slope_2(n), 1.0f + lost, with_lost_slopes(0.1f + 0.9f * b.z, lost), 0.0f);
+    }
+    if (kind == 79) {
+        const int layer = int(3.999f * a.z);
+        const ivec2 cell = ivec2(int(60.0f * a.x) - 30, int(60.0f * a.y) - 30);
+        const RingBirth birth = ring_birth(cell, layer, 20.0f * a.w, 0.5f + b.x);
+        return vec4(birth.place.x, birth.place.y, 1.0f + birth.turn + birth.age,
+                    ring_chance(cell, layer, floor(40.0f * b.y), uint(1000.0f * b.z)) + ring_births_per_m2_s(layer, 0.5f + b.w, c.x));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

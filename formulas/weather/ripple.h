@@ -9,22 +9,30 @@
 SHARED_BEGIN
 
 SHARED_CONST int kRippleLayers = 4;
+SHARED_CONST float kRippleBirths_per_s = 1.6f;  // of each drop's place in the map, times ripple_rate
 
 struct RippleLayer {
     float weight;  // 0..1, how much of this layer the rain intensity calls for
     float clock;   // 0..1, phase common to the drops of the layer
+    float begun;   // how often that phase has come around
     vec2 offset;   // of the texture coordinate
 };
+
+SHARED_FN float ripple_rate(int layer)
+{
+    return layer == 0 ? 1.00f : layer == 1 ? 0.85f : layer == 2 ? 0.93f : 1.13f;
+}
 
 // layer 0..3, rain 0..1, time in seconds, speed 1 = as photographed.
 SHARED_FN RippleLayer ripple_layer(int layer, float rain, float time_s, float speed)
 {
     const float threshold = 0.25f * float(layer);
-    const float rate = layer == 0 ? 1.00f : layer == 1 ? 0.85f : layer == 2 ? 0.93f : 1.13f;
     const float phase = layer == 0 ? 0.00f : layer == 1 ? 0.20f : layer == 2 ? 0.45f : 0.70f;
     RippleLayer result;
     result.weight = clamp(4.0f * (rain - threshold), 0.0f, 1.0f);
-    result.clock = fract(1.6f * (time_s * speed * rate + phase));
+    const float turns = kRippleBirths_per_s * (time_s * speed * ripple_rate(layer) + phase);
+    result.clock = fract(turns);
+    result.begun = floor(turns);
     result.offset = layer == 0   ? vec2(0.25f, 0.00f)
                     : layer == 1 ? vec2(-0.55f, 0.30f)
                     : layer == 2 ? vec2(0.60f, 0.85f)

@@ -12,6 +12,25 @@ SHARED_BEGIN
 
 SHARED_CONST int kDropCells = 9;
 
+struct DropCell {
+    vec2 centre;   // of its drop, in cells
+    float radius;  // in cells; it ends within its cell
+    float when;    // when it falls, 0..1, as 8 bits hold it
+};
+
+// cell: any whole numbers; those kDropCells apart are alike.
+SHARED_FN DropCell drop_cell(ivec2 cell, uint seed)
+{
+    const uint id = hash_u3(uint(wrapped(cell.x, kDropCells)), uint(wrapped(cell.y, kDropCells)), 77u + seed);
+    DropCell drop;
+    drop.radius = 0.34f + 0.14f * hash_f(id);
+    const float room = 1.0f - 2.0f * drop.radius;
+    const vec2 jitter = vec2(hash_f(id + 1u), hash_f(id + 2u)) - 0.5f;
+    drop.centre = vec2(cell) + 0.5f + jitter * max(room, 0.0f);
+    drop.when = floor(hash_f(id + 3u) * 255.0f + 0.5f) / 255.0f;
+    return drop;
+}
+
 // One drop a jittered cell, so that neighbours never cut each other: envelope (1 at the centre, 0
 // outside), 0.5 + 0.5 the direction away from it, and when it falls, 0..1.
 SHARED_FN vec4 rain_drops(vec2 uv, uint seed)
@@ -23,19 +42,13 @@ SHARED_FN vec4 rain_drops(vec2 uv, uint seed)
     float offset = 0.0f;
     for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-            const ivec2 neighbour = cell + ivec2(dx, dy);
-            const uint id = hash_u3(uint(wrapped(neighbour.x, kDropCells)),
-                                    uint(wrapped(neighbour.y, kDropCells)), 77u + seed);
-            const float radius = 0.34f + 0.14f * hash_f(id);
-            const float room = 1.0f - 2.0f * radius;
-            const vec2 jitter = vec2(hash_f(id + 1u), hash_f(id + 2u)) - 0.5f;
-            const vec2 centre = vec2(neighbour) + 0.5f + jitter * max(room, 0.0f);
-            const vec2 away = at - centre;
-            const float e = 1.0f - length(away) / radius;
+            const DropCell drop = drop_cell(cell + ivec2(dx, dy), seed);
+            const vec2 away = at - drop.centre;
+            const float e = 1.0f - length(away) / drop.radius;
             if (e > envelope) {
                 envelope = e;
                 direction = away / max(length(away), 1.0e-4f);
-                offset = hash_f(id + 3u);
+                offset = drop.when;
             }
         }
     }

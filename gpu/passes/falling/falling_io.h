@@ -38,7 +38,7 @@ struct FallingDrop {
 
 // A drop that has hit something.
 struct FallingSplash {
-    vec3 above_m;  // a point on the way that it fell
+    vec3 above_m;  // a point on the way that it fell; with a diameter below 0 one straight over the place where it hit
     float age_s;
     vec3 lamps;    // radiance that lamps give it
     float diameter_m;

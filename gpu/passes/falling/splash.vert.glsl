@@ -40,10 +40,16 @@ void main()
     const vec2 corner = kCorners[gl_VertexIndex - 6 * splash];
     const vec4 place = texelFetch(splashes, splash * SPLASH_TEXELS);
     const vec4 lamps = texelFetch(splashes, splash * SPLASH_TEXELS + 1);
-    const float diameter = lamps.w;
-    const vec4 p = hit(place.xyz);
-    const vec4 beside = hit(place.xyz + vec3(0.06, 0.0, 0.0));
-    const vec4 before = hit(place.xyz + vec3(0.0, 0.0, 0.06));
+    const float diameter = abs(lamps.w);
+    vec3 above = place.xyz;
+    if (lamps.w < 0.0) {
+        // Aside by as much as the rain drives it until it hits: exact where the ground around is level.
+        const vec4 first = hit(above);
+        above.xz += first.w * (above.xz - first.xz);
+    }
+    const vec4 p = hit(above);
+    const vec4 beside = hit(above + vec3(0.06, 0.0, 0.0));
+    const vec4 before = hit(above + vec3(0.0, 0.0, 0.06));
     const vec3 n = normalize(cross(before.xyz - p.xyz, beside.xyz - p.xyz) + vec3(0.0, 1.0e-9, 0.0));
 
     const vec3 from_eye = p.xyz - frame.camera_m;
