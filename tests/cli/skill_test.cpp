@@ -125,9 +125,11 @@ TEST(Skill, RoadsFromOneStartAreNearerThanTheAir)
         if (road.ours.quantity != "road started, all ahead" || set.rfind("mean", 0) == 0) continue;
         ++roads;
         if (set == "case042") continue;
-        for (const BoardRow& air : board_of(assets).rows)
-            if (air.ours.set == set && air.ours.quantity == "air, all ahead")
+        for (const BoardRow& air : board_of(assets).rows) {
+            if (air.ours.set == set && air.ours.quantity == "air, all ahead") {
                 EXPECT_LT(road.ours.score, air.ours.score) << set;
+            }
+        }
     }
     EXPECT_EQ(roads, 18);
 }
