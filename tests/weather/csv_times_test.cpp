@@ -219,6 +219,19 @@ TEST(CsvTimes, WhatIsNone)
     EXPECT_FALSE(parts.uses(4));
 }
 
+// Times of which some alone name their zone are an hour or more apart from what they seem to be.
+TEST(CsvTimes, ZonesOfSomeRowsAloneAreTold)
+{
+    std::string some = "time,air_temp_c\n", all = some;
+    for (int h = 0; h < 12; ++h) {
+        const std::string time = "2024-01-15T" + std::to_string(h + 10) + ":00";
+        some += time + (h < 5 ? "+01:00" : "") + ",4\n";
+        all += time + (h < 5 ? "+01:00" : "+00:00") + ",4\n";
+    }
+    EXPECT_NE(to_text(read_weather(some).report).find("7 of 12 times name no zone"), std::string::npos);
+    EXPECT_EQ(to_text(read_weather(all).report).find("name no zone"), std::string::npos);
+}
+
 // --file-zone is of times that name no zone; others are not moved by it, and it is said.
 TEST(CsvTimes, TheZoneOfAFileIsItsOwn)
 {

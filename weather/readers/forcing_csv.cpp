@@ -1,7 +1,6 @@
 // Plain CSV: a header with a time column and names with units, then rows; its layout:
 // plain_table.h. Column names: units.cpp.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 
@@ -10,6 +9,7 @@
 #include "weather/physics/humidity.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/gauge_count.h"
 #include "weather/readers/plain_table.h"
 #include "weather/readers/table_rows.h"
 #include "weather/readers/text.h"
@@ -322,43 +322,6 @@ void set_from_parts(RowCollector& rows, const Parts& p)
     }
 }
 
-// A gauge's count since some beginning never falls and mostly rises; amounts of hours fall again. One
-// of each day (month, year) falls where a day begins, whichever clock it keeps, and nowhere else.
-class Count {
-public:
-    void add(double value, std::int64_t time_us)
-    {
-        constexpr std::int64_t kHour_us = 3600LL * 1000000, kDay_us = 24 * kHour_us;
-        const std::int64_t day = time_us / kDay_us, hour = time_us % kDay_us / kHour_us;
-        if (seen_ > 0 && value < last_) {
-            ++falls_;
-            at_midnight_ = at_midnight_ && day != day_;
-            fall_hours_ |= 1u << hour;
-        }
-        if (seen_ > 0 && value > last_) {
-            ++rises_;
-            rise_hours_ |= 1u << hour;
-        }
-        last_ = value;
-        day_ = day;
-        ++seen_;
-    }
-    bool counts_up() const { return seen_ >= 24 && rises_ >= 10 && falls_ == 0; }
-    bool counts_up_by_day() const
-    {
-        const bool one_hour = std::popcount(fall_hours_) == 1 && falls_ >= 2;
-        return seen_ >= 24 && rises_ >= 10 && std::popcount(rise_hours_) >= 4 && falls_ > 0 &&
-               (at_midnight_ || one_hour);
-    }
-
-private:
-    std::size_t seen_ = 0, falls_ = 0, rises_ = 0;
-    std::uint32_t fall_hours_ = 0, rise_hours_ = 0;  // of the day, a bit each
-    std::int64_t day_ = 0;
-    bool at_midnight_ = true;
-    double last_ = 0.0;
-};
-
 // Words of cells, and how often each was seen.
 using Words = std::map<std::string, std::size_t>;
 
@@ -402,7 +365,7 @@ bool is_trace(std::string_view text)
 // What the cells of the table turned out to be, for notes below it.
 struct Seen {
     Words missing, traces;
-    std::vector<Count> counts;
+    std::vector<GaugeCount> counts;
     std::int64_t time_us = 0;  // of the row
 };
 
@@ -480,6 +443,7 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
     seen.counts.resize(h.names.size());
     std::size_t plain_numbers = 0;  // where a time should be
     bool zoned = true;
+    std::size_t stamp_length = 0, other_zone = 0;  // of the first row; rows that differ in naming it
     std::vector<std::string_view> cells;
     for (const TimedRow& row : table_rows) {
         table.cells(row.text, cells);
@@ -507,6 +471,12 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
                 rows.note(ReadNote::Kind::Info, row.line, "time",
                           "the times name no zone: taken as UTC; --file-zone HOURS says another");
         }
+        if (h.times.stamp != CsvTimes::kNone) {
+            const std::size_t length = trimmed(cells[h.times.stamp]).size();
+            if (stamp_length == 0) stamp_length = length;
+            // A zone takes place: times as long as the first are as it is.
+            other_zone += length != stamp_length && h.times.name_zone(h.names, cells) != zoned;
+        }
         const double row_s = amount_s.empty() ? 0.0 : amount_s[rows.rows() - 1];
         const std::string_view code = code_of_row(h, cells, table);
         Parts parts;
@@ -518,6 +488,13 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
         set_from_parts(rows, parts);
     }
     note_clock(order, table_rows, zoned, rows);
+    if (other_zone > 0 && rows.report().format == "forcing CSV") {
+        const std::size_t without = zoned ? other_zone : rows.rows() - other_zone;
+        rows.note(ReadNote::Kind::Warning, 0, "time",
+                  std::to_string(without) + " of " + std::to_string(rows.rows()) +
+                      " times name no zone, the others do: they are taken as UTC; "
+                      "write a zone behind all of them or behind none");
+    }
     const auto& counts = seen.counts;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const bool by_day = counts[i].counts_up_by_day();

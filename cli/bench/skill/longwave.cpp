@@ -168,7 +168,7 @@ std::vector<SkillRow> longwave_of_places(const std::vector<PlacedRows>& sets)
 {
     struct Sum {
         double error = 0.0;
-        std::size_t hours = 0, sets = 0;
+        std::size_t hours = 0;
     };
     std::map<std::pair<double, double>, Sum> places;
     for (const PlacedRows& set : sets) {
@@ -177,14 +177,14 @@ std::vector<SkillRow> longwave_of_places(const std::vector<PlacedRows>& sets)
             Sum& sum = places[{set.site.latitude_deg, set.site.longitude_deg}];
             sum.error += row.bias * static_cast<double>(row.count);
             sum.hours += row.count;
-            ++sum.sets;
         }
     }
     std::vector<SkillRow> rows;
     for (const auto& [place, sum] : places) {
-        if (sum.sets < 2) continue;
         char name[64];
-        std::snprintf(name, sizeof name, "%.2f N %.2f E", place.first, place.second);
+        std::snprintf(name, sizeof name, "%.2f %c %.2f %c", std::abs(place.first),
+                      place.first < 0.0 ? 'S' : 'N', std::abs(place.second),
+                      place.second < 0.0 ? 'W' : 'E');
         const double bias = sum.error / static_cast<double>(sum.hours);
         rows.push_back({name, "under cloud, all sets", "W/m2", sum.hours, std::abs(bias), bias,
                         "|bias|"});

@@ -30,8 +30,8 @@ struct PlacedRows {
     weather::Site site;
     std::vector<SkillRow> rows;
 };
-/// The bias under cloud over all hours of all sets of a place, for places that have more than one:
-/// of a station, not of one of its winters.
+/// The bias under cloud over all hours of all sets of a place: of a station, not of one of its
+/// winters.
 std::vector<SkillRow> longwave_of_places(const std::vector<PlacedRows>& sets);
 
 }  // namespace petrichor::cli

@@ -95,6 +95,8 @@ constexpr StatedScore kStated[] = {
     {"CdP_0506", "longwave, that sky black", 4.09, 1.0, kNoScore},
     {"champaign_1998_half_hourly", "longwave", 20.9, 1.0, kNoScore},
     {"champaign_1998_half_hourly", "longwave under cloud", 1.35, 1.0, kNoScore},
+    {"45.30 N 5.77 E", "under cloud, all sets", 2.16, 1.0, kNoScore},
+    {"40.01 N 88.29 W", "under cloud, all sets", 1.35, 1.0, kNoScore},
     {"champaign_1998_half_hourly", "longwave, that sky black", 7.96, 1.0, kNoScore},
     {"case002", "road beside METRo", 0.902, 0.1, kNoScore},
     {"case004", "road beside METRo", 0.311, 0.1, kNoScore},
