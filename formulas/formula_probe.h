@@ -268,6 +268,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         layers.tangent = tangent_at(n, 3.0f * c.x);
         layers.transmitted = 0.5f * c.y;
         layers.other_normal = normalize(n + 0.3f * layers.tangent * c.w);
+        layers.coat_spared = 0.5f * b.z;
         const vec3 r = shade_layers(n, probe_direction(a.z, a.w), probe_direction(b.x, b.y),
                                     splat3(b.z), splat3(0.9f * b.z), splat3(0.04f), 0.3f + 0.7f * b.w, layers);
         return vec4(r.x, r.y, r.z, sheen_albedo(a.z, b.w));
@@ -390,8 +391,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                     snow_scattered(splat3(c.y), look, 2.0f * c.z - 1.0f, c.w).x);
     }
     if (kind == 40) {
-        const vec3 film = thin_film_f0(1.0f + a.x, 200.0f * a.y, vec3(0.9f * b.x, 0.9f * b.y, 0.9f * b.z),
-                                       0.1f + 0.9f * a.z);
+        ThinFilm thin;
+        thin.share = 0.5f + 0.5f * b.w;
+        thin.ior = 1.0f + a.x;
+        thin.thickness_nm = 200.0f * a.y;
+        thin.f0 = vec3(0.9f * b.x, 0.9f * b.y, 0.9f * b.z);
+        const vec3 film = filmed_f0(thin, 0.1f + 0.9f * a.z);
         const vec3 fringe = fringe_color(2000.0f * a.w, vec3(0.0f, kPi, 2.0f * kPi));
         return vec4(film.x, film.z, fringe.x, fringe.y + fringe.z);
     }

@@ -86,6 +86,20 @@ SHARED_FN vec3 thin_film_f0(float film_ior, float thickness_nm, vec3 f0, float c
     return clamp((seen - splat3(edge)) / (1.0f - edge), splat3(0.0f), splat3(1.0f));
 }
 
+// A film over a surface, as lamps ask for it: it has the colour that goes with the half vector.
+struct ThinFilm {
+    float share;  // of the surface that it covers, 0..1
+    float ior;
+    float thickness_nm;
+    vec3 f0;      // of the surface below
+};
+
+// What schlick_fresnel() wants at that cosine.
+SHARED_FN vec3 filmed_f0(ThinFilm film, float cosine)
+{
+    return film.f0 + (thin_film_f0(film.ior, film.thickness_nm, film.f0, cosine) - film.f0) * film.share;
+}
+
 SHARED_END
 
 #endif

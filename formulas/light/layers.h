@@ -22,6 +22,7 @@ struct Layers {
     vec3 tangent;           // along which highlights are long; unit, in the surface
     float transmitted;      // share of the diffuse light that comes out on the other side
     vec3 other_normal;      // unit: of the coat; of skin's diffuse light
+    float coat_spared;      // of the coat's highlight, what a light has not, 0..1: fills shadows and shows none
 };
 
 // Smoother fibres than this are a needle that no smooth law could follow.
@@ -149,7 +150,7 @@ SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, floa
         // light where that grazes more: so both ways are alike, and no more is sent out than comes in.
         const float below = 1.0f - layers.coat * max(coat_fresnel(nl), coat_fresnel(nv));
         const float mirrored =
-            layers.coat * coat_fresnel(clamp(dot(l, h), 0.0f, 1.0f)) * coat_here * nl;
+            layers.coat * (1.0f - layers.coat_spared) * coat_fresnel(clamp(dot(l, h), 0.0f, 1.0f)) * coat_here * nl;
         base = base * below + splat3(mirrored);
     }
     return base + albedo * (layers.transmitted / kPi * max(-facing, 0.0f));

@@ -58,6 +58,14 @@ bool scatters(const Material& m)
 }
 
 // LAYERS_... of a material. A roughness or a direction alone shows nothing.
+// Its thickness is told in place of a tangent; where it lies by shares that layers of glass have not, and a second lobe needs.
+bool tells_film(const Material& m)
+{
+    const bool textured = m.maps.iridescence.present();
+    return m.iridescence > 0.0f && m.anisotropy <= 0.0f && m.lighting_model != "hair" &&
+           !(textured && (is_blended(m) || m.maps.second_lobe.present()));
+}
+
 std::uint32_t layers_of(const Material& m)
 {
     return (m.clearcoat > 0.0f ? LAYERS_COAT : 0u) |
@@ -66,7 +74,8 @@ std::uint32_t layers_of(const Material& m)
            (m.diffuse_transmission > 0.0f ? LAYERS_TRANSMISSION : 0u) |
            (m.translucency > 0.0f && m.translucency_scale > 0.0f ? LAYERS_TRANSLUCENT : 0u) |
            (scatters(m) ? LAYERS_SCATTER : 0u) |
-           (m.maps.second_lobe.present() ? LAYERS_SECOND_LOBE : 0u);
+           (m.maps.second_lobe.present() ? LAYERS_SECOND_LOBE : 0u) |
+           (tells_film(m) ? LAYERS_IRIDESCENT : 0u);
 }
 
 // Occlusion, roughness and metal in channels of one texture, at one place of it: read once.
@@ -89,7 +98,7 @@ std::string lighting_model_of(const Material& material)
 {
     if (!material.lighting_model.empty()) return material.lighting_model;
     if (material.unlit) return "unlit";
-    return layers_of(material) != 0 ? "layered" : "standard";
+    return (layers_of(material) & ~LAYERS_IRIDESCENT) != 0 ? "layered" : "standard";
 }
 
 // Who names one of the other built-in models gets it as it is; light that comes through, and fibres at
@@ -102,7 +111,7 @@ std::uint32_t layers_of(const Material& m, const std::string& model)
     if (own) return all & ~LAYERS_SECOND_LOBE;
     if (model == "layered") return all;
     if (model == "unlit" || model == "unlit_shadowed") return 0;
-    return (all & (LAYERS_TRANSLUCENT | LAYERS_SCATTER)) | (model == "skin" ? LAYERS_SKIN : 0u) |
+    return (all & (LAYERS_TRANSLUCENT | LAYERS_SCATTER | LAYERS_IRIDESCENT)) | (model == "skin" ? LAYERS_SKIN : 0u) |
            (model == "hair" ? LAYERS_HAIR : 0u);
 }
 
@@ -202,7 +211,7 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
 // Its reflectance is 0.04 wherever it is asked, whatever its textures say, and it has no tangent.
 bool GpuScene::mirrors_as_glass(const GpuMaterial& material, const shared::MaterialConstants& c)
 {
-    const std::uint32_t other = BESIDES_SPECULAR_WORKFLOW | BESIDES_IRIDESCENT | BESIDES_ALONG;
+    const std::uint32_t other = BESIDES_SPECULAR_WORKFLOW | BESIDES_IRIDESCENT | BESIDES_FILM_TOLD | BESIDES_ALONG;
     const bool layers = std::any_of(material.layer_roles.begin(), material.layer_roles.end(),
                                     [](std::uint32_t role) { return role != 0; });
     return (material.besides & other) == 0 && !layers && material.own_surface == 0 &&
@@ -221,7 +230,7 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     // Its strands lie along the tangent.
     if ((material.layers & LAYERS_HAIR) != 0u) c.anisotropy_strength = 1.0f;
     material.besides = (source.specular_workflow ? BESIDES_SPECULAR_WORKFLOW : 0u) |
-                       (source.iridescence > 0.0f ? BESIDES_IRIDESCENT : 0u) |
+                       (source.iridescence <= 0.0f ? 0u : (material.layers & LAYERS_IRIDESCENT) != 0u ? BESIDES_FILM_TOLD : BESIDES_IRIDESCENT) |
                        (softens(source) ? BESIDES_SOFT_NORMAL : 0u) |
                        (c.anisotropy_strength > 0.0f ? BESIDES_ALONG : 0u) |
                        (one_read(source, c) ? BESIDES_ONE_READ : 0u) |
@@ -278,7 +287,8 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
         glm::vec4(m.translucency_color, m.translucency_shadow),
         glm::vec4(m.scatter_color, m.skin_curvature),
         {m.skin_curvature_scale, m.second.scatter_bias, m.second.scatter_power, mixes(m) ? 1.0f : 0.0f},
-        glm::vec4(m.second.scatter_color, (material.layers & LAYERS_SECOND_LOBE) != 0u ? 1.0f : 0.0f)};
+        glm::vec4(m.second.scatter_color, (material.layers & LAYERS_SECOND_LOBE) != 0u ? 1.0f : 0.0f),
+        {m.iridescence, m.iridescence_ior, m.iridescence_thickness_min_nm, m.iridescence_thickness_max_nm}};
     std::memcpy(layers_->mapped + row * sizeof(texels), texels, sizeof(texels));
     return lighting_models_.count() + static_cast<std::uint32_t>(row);
 }

@@ -85,7 +85,7 @@ LayerSlots layer_slots_of(const Material& material, const std::vector<bool>& loa
         slots.uses.push_back(&use);
         slots.roles[role / LAYER_ROLES_A_WORD] |= static_cast<std::uint32_t>(slots.uses.size())
                                                   << 4 * (role % LAYER_ROLES_A_WORD);
-        slots.of_light = slots.of_light || role < LAYER_TEXTURES_OF_LIGHT || role == LAYER_TEXTURE_SECOND_LOBE;
+        slots.of_light = slots.of_light || role < LAYER_TEXTURES_OF_LIGHT || role == LAYER_TEXTURE_SECOND_LOBE || role == LAYER_TEXTURE_IRIDESCENCE;
     };
 #define LAYER_ROLE(role, name) take(role, #name);
     LAYER_TEXTURES(LAYER_ROLE)

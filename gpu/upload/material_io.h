@@ -176,18 +176,19 @@
 #define LAYER_ROLE_WORDS 3
 #define LAYER_TEXTURE_SLOTS 6
 #define MATERIAL_TEXTURE_SLOTS (TEXTURE_SLOTS + LAYER_TEXTURE_SLOTS)
-// Roles up to here, and that of the second lobe, are shares that lighting reads a pixel.
+// Roles up to here, and those of the second lobe and of where a thin film is, are shares that lighting reads a pixel.
 #define LAYER_TEXTURES_OF_LIGHT 9
 
 // What else a material's surface does, SURFACE_SPEC_BESIDES.
 #define BESIDES_SPECULAR_WORKFLOW 1u
-#define BESIDES_IRIDESCENT 2u
+#define BESIDES_IRIDESCENT 2u  // its film is told as reflectance
 #define BESIDES_SOFT_NORMAL 4u  // of skin
 #define BESIDES_SHARES 8u       // lighting reads shares in this scene
 #define BESIDES_ALONG 16u       // its light depends on the tangent
 #define BESIDES_ONE_READ 32u    // occlusion is a channel of what roughness and metal are read from
 #define BESIDES_WIDE_GROUND 64u // its colour varies over the land (formulas/weather/ground_tone.h)
 #define BESIDES_AS_CLEARED 128u  // it mirrors as glass does and has no grain: the payload of a cleared G-buffer
+#define BESIDES_FILM_TOLD 256u  // a thin film whose thickness stands where others have the turn of their tangent
 
 // Indices of alpha_mode.
 #define ALPHA_OPAQUE 0u
@@ -244,7 +245,8 @@
 //   5  scatter_color, skin_curvature
 //   6  skin_curvature_scale, second_scatter_bias, second_scatter_power, 1: two sets are mixed
 //   7  second_scatter_color, 1: it has a second lobe
-#define LAYERS_TEXELS 8
+//   8  of a thin film: iridescence_factor, iridescence_ior, iridescence_thickness_minimum and _maximum
+#define LAYERS_TEXELS 9
 
 // Which of them a material has.
 #define LAYERS_COAT 1u
@@ -256,6 +258,7 @@
 #define LAYERS_SKIN 64u
 #define LAYERS_HAIR 128u
 #define LAYERS_SECOND_LOBE 256u
+#define LAYERS_IRIDESCENT 512u  // its film is coloured by each lamp
 #define LAYERS_LATER (LAYERS_TRANSLUCENT | LAYERS_SCATTER | LAYERS_SKIN | LAYERS_HAIR)
 
 

@@ -358,8 +358,8 @@ LIMITS = {
     "half a coat on metal": 0.06,  # below 0.25 the fit of what facets lose fades out; a coat leaves what the more grazing of both ways leaves
     "anisotropy": 0.09,  # what goes on between facets along a grain is one share for all turns about the normal
     "turned anisotropy": 0.11,  # the same
-    "iridescent metal": 0.08,  # its film is coloured as the eye sees the surface, in the text as the half vector does
-    "iridescent dielectric": 0.02,  # the same
+    "iridescent metal": 0.08,  # what facets send on, and its colour; the fit fades out below a roughness of 0.25
+    "iridescent dielectric": 0.015,  # light between facets
     "rough body": 0.03,  # a disc in place of GGX's lobe
     "sheen in even light": 0.02,  # the polynomial of the fibres' albedo
     "film by Airy's sum": 0.05,   # the extension's own approximation

@@ -373,6 +373,31 @@ TEST_F(AreaLightTest, AFillLightIsMirroredNowhere)
     }
 }
 
+// Nor in a coat, which takes its share on the way in all the same.
+TEST_F(AreaLightTest, AFillLightIsNotMirroredByACoat)
+{
+    Scene matt = floor_of(plain_material(glm::vec3(0.2f), 0.9f));
+    matt.materials[0].ior = 1.0f;
+    Scene coated = matt;
+    coated.materials[0].clearcoat = 1.0f;
+    coated.materials[0].clearcoat_roughness = 0.25f;
+    Frame frame = from_above();
+    for (const AreaLights area : {AreaLights::Ltc, AreaLights::Nearest}) {
+        frame.settings.area_lights = area;
+        for (const float radius : {0.0f, 0.3f}) {
+            renderer->load(coated, {});
+            frame.extra_lights = {ball(radius)};
+            const float all = at(renderer->render(frame), 0, 0);
+            frame.extra_lights[0].specular = 0.0f;
+            const float fill = at(renderer->render(frame), 0, 0);
+            renderer->load(matt, {});
+            const float none = at(renderer->render(frame), 0, 0);
+            EXPECT_GT(all, 1.2f * none) << radius;
+            EXPECT_NEAR(fill, 0.96f * none, 0.02f * none) << radius;
+        }
+    }
+}
+
 TEST_F(AreaLightTest, ListsAreWhatAllLightsGive)
 {
     std::mt19937 random(5);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "formulas/light/iridescence.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {
@@ -403,6 +404,45 @@ TEST_F(LayerTextures, GreenOfTheVerticesIsOcclusionAsFarAsTold)
     EXPECT_LT(seen(1.0f), 0.75f * open);
     EXPECT_LT(seen(0.5f), 0.95f * open);
     EXPECT_GT(seen(0.5f), 0.75f * open);
+}
+
+// The same eye, lamps from all sides: each is mirrored in the colour that goes with its own half vector.
+TEST_F(LayerTextures, AThinFilmIsColouredByEachLamp)
+{
+    frame.sky.sun_elevation_rad = -1.0f;
+    frame.settings.image_based_light = false;
+    frame.settings.width = frame.settings.height = 47;
+    const glm::vec3 base(0.6f, 0.55f, 0.5f);
+    Material metal = plain_material(base, 0.5f);
+    metal.metallic = 1.0f;
+    Material filmed = metal;
+    filmed.iridescence = 0.8f;
+    filmed.iridescence_ior = 1.5f;
+    filmed.iridescence_thickness_max_nm = 420.0f;
+    const glm::vec3 to_eye = glm::normalize(glm::vec3(0, 1, 1));
+    const shared::ThinFilm film{0.8f, 1.5f, 420.0f, base};
+    float most = 0.0f, least = 10.0f;
+    for (const glm::vec3& way : {glm::vec3(0, 1, -1), glm::vec3(0, 0.3f, -1), glm::vec3(0, 1, 0), glm::vec3(0, 1, 0.7f), glm::vec3(1.5f, 1, 0.5f), glm::vec3(-2, 1, -1)}) {
+        const glm::vec3 to_lamp = glm::normalize(way);
+        Light lamp;
+        lamp.kind = LightKind::Point;
+        lamp.position_m = 20.0f * to_lamp;
+        lamp.intensity = 1e7f;
+        frame.extra_lights = {lamp};
+        const float cosine = glm::dot(to_eye, glm::normalize(to_eye + to_lamp));
+        // What facets send on to each other has the colour that the eye sees.
+        const auto lobe = [&](const glm::vec3& f0) {
+            return shared::with_all_light(shared::make_lobe({0, 1, 0}, to_eye, glm::vec3(0.0f), f0, 0.25f), 0.5f, shared::lost_along_lobe(0.5f));
+        };
+        shared::Lobe coloured = lobe(shared::filmed_f0(film, to_eye.y));
+        coloured.f0 = shared::filmed_f0(film, cosine);
+        const glm::vec3 wanted = shared::shade_lobe(coloured, to_lamp) / shared::shade_lobe(lobe(base), to_lamp);
+        const glm::vec3 plain(pixel(shot(metal), 23, 23)), seen(pixel(shot(filmed), 23, 23));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / plain[c], wanted[c], 0.03f * wanted[c]) << way.x << " " << way.z << " " << c;
+        most = std::max(most, wanted.r / wanted.b);
+        least = std::min(least, wanted.r / wanted.b);
+    }
+    EXPECT_GT(most, 1.5f * least);
 }
 
 }  // namespace

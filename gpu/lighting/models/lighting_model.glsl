@@ -22,6 +22,7 @@
 #define PETRICHOR_GPU_LIGHTING_LIGHTING_MODEL_GLSL
 
 #include "formulas/light/brdf.h"
+#include "formulas/light/iridescence.h"
 #include "formulas/light/layers.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/other_lobes.h"
@@ -79,6 +80,7 @@ struct LitPoint {
     LobeBeside second;  // of the material's small levels
     Layers layers;     // coat, sheen and so on of the material; zero where it has none
     Translucency translucency;  // of the material; the pass adds it
+    ThinFilm thin_film;  // of the material; the pass colours `specular` and `lobe` by it for each lamp
     float curvature;   // of skin, 0 flat .. 1
     float hair_shift;  // radians
     WaterFilm film;    // of rain; the pass adds it

@@ -210,6 +210,7 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
     if (p.layers.coat > 0.0) {
         const float coat = p.layers.coat_roughness * p.layers.coat_roughness;
         q.layers.coat_roughness = sqrt(min(coat + 0.5 * wide, 1.0));
+        q.layers.coat_spared = 1.0 - highlight_share(highlight, p.layers.coat_roughness);
     }
     vec3 radiance = model_light(q, l) * irradiance;
     if (p.layers.transmitted > 0.0) {
@@ -218,7 +219,7 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
     if (ggx && p.lobe.lit > 0.0 && specular > 0.0) {
         vec3 in_second = vec3(0.0);
         if (TWO_LOBES) in_second = outline_irradiance(o, p.shaped.second_lobe);
-        radiance += shape_highlight(p, outline_irradiance(o, p.shaped.lobe), in_second, specular);
+        radiance += shape_highlight(filmed_toward(p, to_it), outline_irradiance(o, p.shaped.lobe), in_second, specular);
     }
     if (FILM != 0u)
         radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight_share(highlight, p.film.roughness));
@@ -250,6 +251,7 @@ vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3
     bright.lobe = make_lobe(p.lobe.normal, p.view, vec3(0.0), p.specular, alpha);
     const float highlight = highlight_share(size.z, p.roughness);
     LitPoint matt = matt_part(p, highlight);
+    matt.layers.coat_spared = 1.0;  // the bright part has the coat's
     if (GATHERS != 0u && p.gathers == GATHERS_DIFFUSE) bright.gathers = GATHERS_REST;
     if (GATHERS != 0u && p.gathers == GATHERS_SPECULAR) matt.gathers = GATHERS_REST;
     return (shadowed_light(matt, nearest_on_axis(centre, half_axis), visible) +
@@ -330,6 +332,7 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
     if (p.layers.coat > 0.0) {
         const float coat = p.layers.coat_roughness * p.layers.coat_roughness;
         q.layers.coat_roughness = sqrt(min(coat + 0.5 * wide, 1.0));
+        q.layers.coat_spared = 1.0 - glow_highlight(p.layers.coat_roughness);
     }
     vec3 radiance = model_light(q, l) * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
     if (ggx && p.lobe.lit > 0.0 && highlight > 0.0) {
@@ -339,7 +342,7 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
         if (TWO_LOBES)
             in_second = rectangle_irradiance(through(p.shaped.second_lobe, centre), through(p.shaped.second_lobe, half_u),
                                              through(p.shaped.second_lobe, half_v));
-        radiance += shape_highlight(p, in_lobe, in_second, highlight);
+        radiance += shape_highlight(filmed_toward(p, f / size), in_lobe, in_second, highlight);
     }
     const float q2 = dot(centre, centre) * light.inverse_reach2;
     const vec3 shines = color.rgb * clamp(1.0 - light.size.y * q2 * q2, 0.0, 1.0);

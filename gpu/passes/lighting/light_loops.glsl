@@ -87,6 +87,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
             p.lobe = shown_so_much(p.lobe, highlight);
             if (TWO_LOBES) p.second.lobe = shown_so_much(p.second.lobe, highlight);
             p.film.lit *= highlight_share(size.z, p.film.roughness);
+            p.layers.coat_spared = 1.0 - highlight_share(size.z, p.layers.coat_roughness);
         }
     }
     if (RECTANGLES != 0u && shaped) {

@@ -155,6 +155,14 @@ void main()
         dry.porosity = g.porosity;
         dry.water_color = vec4(0.0);
         dry.snow_opacity = 0.0;
+        ThinFilm thin = ThinFilm(0.0, 1.0, 0.0, g.f0);
+        if ((LAYERS & LAYERS_IRIDESCENT) != 0u && g.model >= LIGHTING_MODEL_COUNT) {
+            const vec4 told = texelFetch(layers_table, int(g.model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS + 8);
+            thin = ThinFilm(told.x, told.y, mix(told.z, told.w, g.tangent), g.f0);
+            if (SHARES != 0u) thin.share *= unpack_shares(texelFetch(layer_shares, texel, 0), has_second_lobe(g.model)).film;
+            // As the eye sees it.
+            if (thin.share > 0.0) dry.f0 = filmed_f0(thin, clamp(abs(dot(g.base_normal, v)), 0.02, 1.0));
+        }
         if (GAMMA != 0u) {
             dry.base_color = srgb_codes(dry.base_color);
             dry.f0 = srgb_codes(dry.f0);  // 0.04 becomes 0.22
@@ -253,7 +261,11 @@ void main()
         p.exposure = sky_light.exposure;
         p.model = g.model;
         p.gathers = GATHERS_NOTHING_FIRST;
-        p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0, n);
+        p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0, n, 0.0);
+        // Snow and standing water cover it; in codes for light it stays as the eye sees it.
+        p.thin_film = thin;
+        if (GAMMA != 0u) p.thin_film.share = 0.0;
+        if (WEATHER != 0u) p.thin_film.share *= (1.0 - g.weather.z) * (1.0 - g.weather.y);
         p.translucency = Translucency(0.0, 1.0, 0.0, 0.0, 0.0, vec3(0.0));
         p.curvature = 0.0;
         p.hair_shift = 0.0;

@@ -49,8 +49,28 @@ vec3 model_gather(LitPoint p, vec3 to_light)
     return p.gathers == GATHERS_DIFFUSE ? one.diffuse : one.specular;
 }
 
+// A thin film as a light shows it that comes from there: coloured by the half vector. What is left to be scattered goes by it.
+LitPoint filmed_toward(LitPoint p, vec3 to_light)
+{
+    if ((LAYERS & LAYERS_IRIDESCENT) == 0u) return p;
+    const float seen = clamp(dot(p.normal, p.view), 0.02, 1.0);
+    const float asked = clamp(sqrt(0.5 + 0.5 * dot(p.view, to_light)), 0.02, 1.0);
+    const vec3 change = p.thin_film.share > 0.0 ? filmed_f0(p.thin_film, asked) - filmed_f0(p.thin_film, seen) : vec3(0.0);
+    const vec3 before = p.specular;
+    // Without a highlight it stays so.
+    if (before.r + before.g + before.b > 0.0) p.specular = clamp(before + change, vec3(0.0), vec3(1.0));
+    p.lobe.f0 = p.lobe.lit > 0.0 ? clamp(p.lobe.f0 + change, vec3(0.0), vec3(1.0)) : p.lobe.f0;
+    p.second.lobe.f0 = p.second.lobe.lit > 0.0 ? clamp(p.second.lobe.f0 + change, vec3(0.0), vec3(1.0)) : p.second.lobe.f0;
+    const float left = (1.0 - max(p.specular.r, max(p.specular.g, p.specular.b))) /
+                       max(1.0 - max(before.r, max(before.g, before.b)), 1.0e-3);
+    p.diffuse *= left;
+    p.lobe.diffuse *= left;
+    return p;
+}
+
 vec3 model_light(LitPoint p, vec3 to_light)
 {
+    p = filmed_toward(p, to_light);
     if (GATHERS != 0u && p.gathers != GATHERS_NOTHING_FIRST) return model_gather(p, to_light);
     vec3 radiance = vec3(0.0);
 #define ROW(number_, name_)                                                \

@@ -210,6 +210,10 @@ SurfaceData evaluate_surface(SurfaceInput at)
     }
     data.texel.body = 1.0;
     if ((BESIDES & BESIDES_IRIDESCENT) != 0u) add_thin_film(data.texel, at, shift);
+    if ((BESIDES & BESIDES_FILM_TOLD) != 0u) {
+        data.texel.tangent = film_thickness(at, shift);
+        as_reflectance(data.texel);
+    }
     if ((BESIDES & BESIDES_SHARES) != 0u) data.shares = layer_shares(at, f, normal, shift);
     if ((BESIDES & BESIDES_SHARES) != 0u && has_layer(LAYER_TEXTURE_SECOND_LOBE)) {
         const SecondLobe lobe = second_lobe_of(layer_texel(LAYER_TEXTURE_SECOND_LOBE, at, shift, 1.0));

@@ -37,6 +37,20 @@ void specular_workflow(inout GBufferTexel texel, inout float roughness, SurfaceI
     roughness = 1.0 - told.a;
 }
 
+// Metal told as reflectance.
+void as_reflectance(inout GBufferTexel texel)
+{
+    texel.f0 = mix(texel.f0, texel.base_color, texel.metallic);
+    texel.base_color *= 1.0 - texel.metallic;
+    texel.metallic = 0.0;
+}
+
+// How thick a film is, 0..1 of what the material allows.
+float film_thickness(SurfaceInput at, vec2 shift)
+{
+    return layer_number(LAYER_TEXTURE_IRIDESCENCE_THICKNESS, at, shift);
+}
+
 // A thin film colours what is mirrored, as the eye here sees it: told as the reflectance that would show it,
 // so that lights and surroundings answer alike.
 void add_thin_film(inout GBufferTexel texel, SurfaceInput at, vec2 shift)
@@ -49,12 +63,9 @@ void add_thin_film(inout GBufferTexel texel, SurfaceInput at, vec2 shift)
         material.iridescence_factor * layer_number(LAYER_TEXTURE_IRIDESCENCE, at, shift);
     const float thickness_nm = mix(material.iridescence_thickness_minimum,
                                    material.iridescence_thickness_maximum,
-                                   layer_number(LAYER_TEXTURE_IRIDESCENCE_THICKNESS, at, shift));
-    const vec3 f0 = mix(texel.f0, texel.base_color, texel.metallic);
-    const vec3 film = thin_film_f0(material.iridescence_ior, thickness_nm, f0, nv);
-    texel.f0 = mix(f0, film, share);
-    texel.base_color *= 1.0 - texel.metallic;
-    texel.metallic = 0.0;
+                                   film_thickness(at, shift));
+    as_reflectance(texel);
+    texel.f0 = mix(texel.f0, thin_film_f0(material.iridescence_ior, thickness_nm, texel.f0, nv), share);
 }
 
 LayerShares layer_shares(SurfaceInput at, TangentFrame f, vec3 normal, vec2 shift)
@@ -66,6 +77,7 @@ LayerShares layer_shares(SurfaceInput at, TangentFrame f, vec3 normal, vec2 shif
     s.sheen_roughness = layer_number(LAYER_TEXTURE_SHEEN_ROUGHNESS, at, shift);
     s.transmitted = layer_number(LAYER_TEXTURE_DIFFUSE_TRANSMISSION, at, shift);
     s.translucency = layer_number(LAYER_TEXTURE_TRANSLUCENCY, at, shift);
+    s.film = layer_number(LAYER_TEXTURE_IRIDESCENCE, at, shift);
     s.curvature = layer_number(LAYER_TEXTURE_SKIN_CURVATURE, at, shift);
     if (has_layer(LAYER_TEXTURE_ANISOTROPY)) {
         s.anisotropy = layer_texel(LAYER_TEXTURE_ANISOTROPY, at, shift, 1.0).b;

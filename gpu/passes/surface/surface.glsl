@@ -85,7 +85,9 @@ void main()
     if (gl_FragCoord.z <= texelFetch(solid_depth, at.pixel, 0).r) discard;
     if (FIRST == 0u && gl_FragCoord.z >= texelFetch(depth_before, at.pixel, 0).r) discard;
     if (material.alpha_mode == ALPHA_MASK && surface_alpha(at) < material.alpha_cutoff) discard;
-    LetThrough l = let_through(at, data.texel.base_color, data.texel.metallic, data.texel.f0,
+    GBufferTexel seen = data.texel;  // in the colour of its film
+    if ((BESIDES & BESIDES_FILM_TOLD) != 0u) add_thin_film(seen, at, vec2(0.0));
+    LetThrough l = let_through(at, data.texel.base_color, data.texel.metallic, seen.f0,
                                data.texel.base_normal, data.opacity);
     if (HOLES != 0u) l = LetThrough(1.0, 1.0, vec3(0.0), 1.0);  // by chance: it is here, or it is not
     data.texel.base_color *= l.matt;
