@@ -81,15 +81,22 @@ public:
         if (!within) asked.part = above.hit() ? 1u : 0u;
         return asked;
     }
-    // What points of a part see, as patches do: each direction from one of them.
-    weather::VisibleBits visible_from(const std::vector<glm::vec3>& points, const weather::Direction& normal) const
+    // What points of a part see: each direction from one of them, as patches do; what is overhead, by which a
+    // shelter's edge runs, from the one in its middle, so that parts along the edge are alike.
+    weather::VisibleBits visible_from(const std::vector<glm::vec3>& points, const glm::vec3& middle,
+                                      const weather::Direction& normal) const
     {
         weather::VisibleBits bits{};
         scene::Tracer::Blocker last;
+        const auto from_middle = [&](const glm::vec3& a) { return glm::dot(a - middle, a - middle); };
+        const glm::vec3& central = *std::min_element(points.begin(), points.end(), [&](const glm::vec3& a, const glm::vec3& b) {
+            return from_middle(a) < from_middle(b);
+        });
         for (int k = 0; k < weather::kVisibleBits; ++k) {
             const weather::Direction d = weather::visible_direction(k);
             if (!(weather::dot(d, normal) > 0.0)) continue;
-            const glm::vec3& from = points[shared::hash_u(static_cast<std::uint32_t>(k) + 1u) % points.size()];
+            const glm::vec3& from = d.y > kOverhead ? central
+                                                    : points[shared::hash_u(static_cast<std::uint32_t>(k) + 1u) % points.size()];
             if (tracer_.blocked({from, glm::vec3(glm::dvec3(d.x, d.y, d.z))}, &last)) continue;
             bits[static_cast<std::size_t>(k >> 5)] |= 1u << (k & 31);
         }
@@ -216,12 +223,12 @@ ShelterParts cut_at_shelters(weather::PatchSet& set, const scene::Patches& patch
             weather::WeatherPatch p = whole;
             const std::vector<glm::vec3>& own = points[part];
             p.area_m2 = whole.area_m2 * static_cast<double>(own.size()) / static_cast<double>(found);
-            p.visible = looks.visible_from(own, p.normal);
-            p.sky_share = std::min(1.0, weather::sky_shares(p.visible, p.normal).sky);
-            p.patch_share = whole.sky_share < 1.0 ? std::min(1.0, whole.patch_share / (1.0 - whole.sky_share)) * (1.0 - p.sky_share) : 0.0;
             glm::vec3 middle(0.0f);
             for (const glm::vec3& at : own) middle += at;
             middle = middle / static_cast<float>(own.size());
+            p.visible = looks.visible_from(own, middle, p.normal);
+            p.sky_share = std::min(1.0, weather::sky_shares(p.visible, p.normal).sky);
+            p.patch_share = whole.sky_share < 1.0 ? std::min(1.0, whole.patch_share / (1.0 - whole.sky_share)) * (1.0 - p.sky_share) : 0.0;
             if (part == 0) {
                 set.patches[i] = p;
                 all.position_m[i] = middle;
