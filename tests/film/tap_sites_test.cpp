@@ -12,6 +12,7 @@
 #include "film/jobs/scene_places.h"
 #include "film/scenario/scenario.h"
 #include "film/weather/artist_places.h"
+#include "film/weather/hollows.h"
 #include "film/weather/patch_weather.h"
 #include "scene/basins/water.h"
 #include "tests/film/rain_table.h"
@@ -290,6 +291,22 @@ TEST(ArtistTaps, AreNoColderThanTheirWaterAndJumpAtTheirTimes)
     const weather::Channel& wets = below.timeline.parameters.at("accumulation_rate_wetness");
     EXPECT_EQ(weather::value_at(wets, 2e6), 0.0);
     EXPECT_EQ(weather::value_at(wets, 10e6), script.params.accumulation_rate_wetness);
+}
+
+// Without patches too water leaves by the drains of the keys, and what is no ground holds none.
+TEST(Hollows, KnowTheDrainsOfTheKeys)
+{
+    const scene::Scene scene = valley();
+    ScenarioGround keys;
+    const Hollows without(scene, keys);
+    ASSERT_TRUE(without.any());
+    const auto stands = [](const Hollows& hollows) {
+        const auto place = hollows.at(1.0f);
+        return place && std::any_of(place->levels_m.begin() + 1, place->levels_m.end(), [](float m) { return m > scene::kDry_m; });
+    };
+    EXPECT_TRUE(stands(without));
+    keys.drains.emplace_back(2.0, 0.0, 8.0);
+    EXPECT_FALSE(stands(Hollows(scene, keys)));
 }
 
 TEST(TapSites, OutsideOfTheGroundTheyAreRefused)
