@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "gpu/place/place_parts.h"
+        ((places + 1) * PLACE_STATE_TEXELS + SKY_DIRECTIONS * PLACE_FALL_TEXELS) * sizeof(glm::vec4),
 
 namespace petrichor::gpu {
 namespace {
@@ -76,7 +76,7 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
     table_ = texel_buffer(*arena_, "place_table", tree.words.size() * 4, VK_FORMAT_R32_UINT);
     states_ = texel_buffer(
         *arena_, "place_states",
-        (places + 1) * PLACE_STATE_TEXELS * sizeof(glm::vec4),
+        ((places + 1) * PLACE_STATE_TEXELS + SKY_DIRECTIONS * PLACE_FALL_TEXELS) * sizeof(glm::vec4),
         VK_FORMAT_R32G32B32A32_SFLOAT);
     labels_ = texel_buffer(*arena_, "place_labels", at_least(shape.labels.size()) * 4,
                            VK_FORMAT_R32_UINT);
@@ -109,6 +109,17 @@ void GpuPlace::update(const Device& device, const PlaceWeather* place)
                     place->open.data(), place->open.size() * sizeof(glm::vec4));
     constants_.open_patch = place->open.empty() ? shared::kNoPatch : constants_.grid.patches;
     fill(*levels_, place->levels_m);
+}
+
+void GpuPlace::set_falls(std::span<const shared::FallConstants> falls)
+{
+    std::vector<glm::vec4> texels;
+    for (const shared::FallConstants& fall : falls) {
+        texels.insert(texels.end(), {fall.column, fall.row, fall.depth, glm::vec4(fall.level, fall.rain),
+                                     glm::vec4(fall.snow, static_cast<float>(fall.layer), 0.0f, 0.0f)});
+    }
+    const std::size_t behind = (std::size_t{constants_.grid.patches} + 1) * PLACE_STATE_TEXELS;
+    std::memcpy(states_->mapped + behind * sizeof(glm::vec4), texels.data(), texels.size() * sizeof(glm::vec4));
 }
 
 void bind_place(Bindings& bindings, std::uint32_t first, GpuPlace& place)

@@ -2,10 +2,12 @@
 #define PETRICHOR_GPU_PLACE_GPU_PLACE_H
 
 #include <memory>
+#include <span>
 
 #include "gpu/device/graph.h"
 #include "gpu/device/resources.h"
 #include "gpu/frame/frame.h"
+#include "gpu/frame/frame_io.h"
 #include "gpu/place/place_tree.h"
 
 namespace petrichor::gpu {
@@ -18,6 +20,9 @@ public:
 
     /// Uploads what has changed. Throws Error when tables and states do not belong together.
     void update(const Device& device, const PlaceWeather* place);
+    /// Where what falls comes from, for shaders that ask one direction after the other (gpu/passes/surface/shelter.glsl).
+    /// Behind the states, whose buffer holds nothing of it since they were updated.
+    void set_falls(std::span<const shared::FallConstants> falls);
     bool present() const { return constants_.grid.levels > 0; }
     const shared::PlaceConstants& constants() const { return constants_; }
 

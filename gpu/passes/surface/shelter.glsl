@@ -8,6 +8,7 @@
 #include "formulas/weather/wander.h"
 #include "gpu/passes/surface/textures.glsl"
 #include "gpu/frame/picture_pixel.glsl"
+#include "gpu/frame/place_falls_io.h"
 
 struct Exposure {
     float rain;  // share of that on open flat ground
@@ -23,10 +24,27 @@ vec3 stray(SurfaceInput at)
     return flat_way - at.normal * dot(at.normal, flat_way);
 }
 
-// Adds what falls along one direction. lifted: off the surface.
-void fall_on(inout Exposure open, SurfaceInput at, vec4 lifted, int k)
+// By a number that is known as the shader runs alone: texels, since words of a uniform block cost a CPU several times
+// as much then. They lie behind the states of patches; how far off the surface is not among them.
+FallConstants fall_by_texels(int k)
 {
-    const FallConstants fall = fall_of(k);
+    const int first = (int(frame.place.grid.patches) + 1) * PLACE_STATE_TEXELS + k * PLACE_FALL_TEXELS;
+    FallConstants fall;
+    fall.column = texelFetch(place_states, first);
+    fall.row = texelFetch(place_states, first + 1);
+    fall.depth = texelFetch(place_states, first + 2);
+    const vec4 level_rain = texelFetch(place_states, first + 3);
+    const vec2 snow_layer = texelFetch(place_states, first + 4).xy;
+    fall.level = level_rain.xyz;
+    fall.rain = level_rain.w;
+    fall.snow = snow_layer.x;
+    fall.layer = int(snow_layer.y);
+    return fall;
+}
+
+// Adds what falls along one direction. lifted: off the surface.
+void fall_on(inout Exposure open, SurfaceInput at, vec4 lifted, FallConstants fall)
+{
     const vec3 map = vec3(dot(fall.column, lifted), dot(fall.row, lifted), dot(fall.depth, lifted));
     // What lies beside the map is open, as its rim is (depth_quads.comp.glsl).
     const vec2 p = clamp(map.xy, vec2(0.0), vec2(float(SKY_MAP_SIZE - 1)));
@@ -55,10 +73,10 @@ Exposure exposure_to_sky(SurfaceInput at, bool asked)
     const vec4 lifted = vec4(at.position + stray(at) + at.normal * fall_of(0).lift_m, 1.0);
     if (PLACE != 0u) {
         // Most ask their patch: a loop ends where none of a group does not.
-        for (int k = 0; k < (asked ? FALLS : 0); ++k) fall_on(open, at, lifted, k);
+        for (int k = 0; k < (asked ? FALLS : 0); ++k) fall_on(open, at, lifted, fall_by_texels(k));
         return open;
     }
-#define FALL(k) if (FALLS > k) fall_on(open, at, lifted, k);
+#define FALL(k) if (FALLS > k) fall_on(open, at, lifted, fall_of(k));
     FALL(0) FALL(1) FALL(2) FALL(3) FALL(4) FALL(5) FALL(6) FALL(7)
     FALL(8) FALL(9) FALL(10) FALL(11) FALL(12) FALL(13) FALL(14) FALL(15)
 #undef FALL
