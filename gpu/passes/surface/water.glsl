@@ -66,7 +66,8 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
     const float unit_m = mapped && material.height_scale_m > 0.0 ? material.height_scale_m : kGroundReliefUnit_m;
     // Half of it: the mesh is the mean of its ground.
     water.stands_m = 0.5 * unit_m * (mapped ? height : height - material.default_height);
-    const float over = flood.y * saturate(at.normal.y + 1.0 - material.water_slope_damp) - (1.0 - puddle_mask) - height;
+    // What a material holds in any weather is a setting and no depth.
+    const float over = weather.y * levelness * saturate(at.normal.y + 1.0 - material.water_slope_damp) - (1.0 - puddle_mask) - height;
     water.deeper_m = any * max(over - puddle_closes(blurred), 0.0) * unit_m;
     if (PLACE != 0u && here.volume) {
         // The places of a pixel stand within `wider_m` of their mean. Its edge is as wide as a drop is high.
