@@ -53,8 +53,8 @@ void PictureBench::State::render_truth()
                     std::fill(sum.begin(), sum.end(), 0.0);
                     for (int s = 0; s < n * n; ++s) {
                         const auto [jx, jy] = detail::jitter(options.seed, frame, x, y, s);
-                        const auto at =
-                            plan.ray(frame, x + ((s % n) + jx) / n, y + ((s / n) + jy) / n);
+                        const auto [px, py] = plan.inside(x, y, ((s % n) + jx) / n, ((s / n) + jy) / n);
+                        const auto at = plan.ray(frame, px, py);
                         const Texel t = plain().front().nearest(at.u, at.v);
                         const float p = perceptual(t.stored, input);
                         for (std::size_t i = 0; i < cases.size(); ++i)

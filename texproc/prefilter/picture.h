@@ -37,6 +37,9 @@ struct PictureView {
     double height_m = 1.5, pitch_deg = 16.0;  ///< above the floor; down from the horizon
     double field_of_view_deg = 34.0;          ///< over the width
     int width = 300, rows = 110;
+    /// Of the place of a pixel, how much it covers across and down. Below 1 this is a sample of a picture of
+    /// as many more pixels: few of them, of the size that they have there.
+    double covers = 1.0;
     double step_right_m = 0.004, step_ahead_m = 0.021;  ///< from frame to frame
     int taps = 16;  ///< at most so many samples along a footprint; 1 is plain trilinear filtering
 };
@@ -76,6 +79,12 @@ PictureOptions design_pictures(bool quick = false, SurfaceClass surface = Surfac
 /// picture pays for what it fitted where that is worse than plain mips: a price, no promise. The seeds of
 /// drawn_pictures() draw others.
 PictureOptions guard_pictures(SurfaceClass surface);
+
+/// Pictures of whole floors, a few pixels of each, with which two lobes are weighed at last: 24 views like that of
+/// reference_pictures() and suns from all sides, 18 to 58 degrees high, and windows ahead, all drawn from a seed:
+/// every material has its own. kHeldOutViews cases one after another have the same light.
+inline constexpr int kHeldOutViews = 8;
+PictureOptions held_out_pictures(SurfaceClass surface, std::uint32_t seed);
 
 /// One case of one material: display-referred, 0..1.
 struct PictureScore {

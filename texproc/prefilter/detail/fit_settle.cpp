@@ -8,6 +8,7 @@
 
 #include "texproc/prefilter/detail/chain_fit.h"
 #include "texproc/prefilter/detail/picture_cost.h"
+#include "texproc/prefilter/detail/second_look.h"
 
 namespace petrichor::texproc::detail {
 
@@ -31,7 +32,6 @@ constexpr double kGuard = 0.3;
 // And what a picture costs there that is worse than that of plain mips, its own or the guard's: half of what it
 // costs without a guard. Of so many hardly any fit has none, and what that holds back is more than it saves.
 constexpr double kWorseGuarded = 5.0;
-constexpr std::size_t kRoughness = 0, kMetal = 2, kSecondRoughness = 4, kSecondShare = 5;
 
 // Of a level.
 struct Kept {
@@ -39,39 +39,6 @@ struct Kept {
     float fitted = 0.0f, metal = 0.0f, dark = 1.0f, dim = 0.0f, second = 1.0f, left = 1.0f;
     bool operator==(const Kept&) const = default;
 };
-
-std::array<std::vector<Image>*, 7> parts_of(Prefiltered& chain)
-{
-    return {&chain.roughness,     &chain.normal,           &chain.metal_share,
-            &chain.second.normal, &chain.second.roughness, &chain.second.share, &chain.base_share};
-}
-
-FitLevels fitted_levels(Prefiltered& chain)
-{
-    FitLevels all(chain.roughness.size());
-    for (std::size_t k = 1; k < all.size(); ++k) {
-        if (!is_fitted(chain.roughness[k].width, chain.roughness[k].height)) continue;
-        const auto parts = parts_of(chain);
-        for (std::size_t i = 0; i < parts.size(); ++i)
-            if (k < parts[i]->size()) all[k][i] = (*parts[i])[k];
-    }
-    return all;
-}
-
-// A level between two: 0 the first, 1 the second.
-void mix(const Image& from, const Image& to, float share, Image& mixed)
-{
-    for (std::size_t i = 0; i < mixed.pixels.size(); ++i)
-        mixed.pixels[i] = from.pixels[i] + share * (to.pixels[i] - from.pixels[i]);
-    if (mixed.channels < 3) return;
-    for (std::size_t i = 0; i < mixed.pixels.size(); i += 3) {  // normals, made unit length again
-        float* code = &mixed.pixels[i];
-        float squares = 0.0f;
-        for (int c = 0; c < 3; ++c) squares += (2.0f * code[c] - 1.0f) * (2.0f * code[c] - 1.0f);
-        const float scale = 1.0f / std::sqrt(std::max(squares, 1e-12f));
-        for (int c = 0; c < 3; ++c) code[c] = 0.5f + scale * (code[c] - 0.5f);
-    }
-}
 
 // Pictures of a bench, whose mean is to be small, and those of a guard, of which none is to be worse
 // than plain mips.
@@ -168,7 +135,7 @@ private:
         for (std::size_t i = 0; i < parts.size(); ++i) {
             if (k >= parts[i]->size()) continue;
             const bool is_rough = i == kRoughness || i == kSecondRoughness;
-            mix(is_rough ? rough : before[i], after[i], i == kMetal ? kept.metal : kept.fitted,
+            mix(is_rough ? rough : before[i], after[i], i == kMetalShare ? kept.metal : kept.fitted,
                 (*parts[i])[k]);
             if (i != kSecondShare) continue;
             for (float& share : (*parts[i])[k].pixels) share *= kept.second;
@@ -290,6 +257,7 @@ void settle_fit(const PictureBench& bench, const PrefilterOptions& options, Pref
             if (!fits.before[k][i].empty()) (*parts[i])[k] = fits.before[k][i];
     }
     keep_of_fits(bench, fits, options, chain);
+    if (options.lobes == 2 && options.surface != SurfaceClass::Metal) look_again(bench, options, chain);
 }
 
 }  // namespace petrichor::texproc::detail

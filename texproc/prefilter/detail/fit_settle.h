@@ -1,20 +1,13 @@
 #ifndef PETRICHOR_TEXPROC_PREFILTER_DETAIL_FIT_SETTLE_H
 #define PETRICHOR_TEXPROC_PREFILTER_DETAIL_FIT_SETTLE_H
 
-#include <array>
-#include <cstddef>
 #include <vector>
 
+#include "texproc/prefilter/detail/fit_parts.h"
 #include "texproc/prefilter/picture.h"
 #include "texproc/prefilter/prefilter.h"
 
 namespace petrichor::texproc::detail {
-
-/// What a fit changes of a level: roughness, normal, share of metal's base colour, of the second lobe
-/// normal, roughness and share, and the share of paint's base colour. Empty: the chain has none, or the level
-/// is not fitted.
-using FitParts = std::array<Image, 7>;
-using FitLevels = std::vector<FitParts>;
 
 /// A chain before it is fitted, and fits of it to choose from.
 struct Fits {
@@ -32,7 +25,8 @@ struct Fits {
 void keep_of_fits(const PictureBench& bench, const Fits& fits, const PrefilterOptions& options,
                   Prefiltered& chain);
 
-/// Fits a chain (chain_fit.h), and keeps of it what pictures like best.
+/// Fits a chain (chain_fit.h), keeps of it what pictures like best, and looks again at two lobes on anything but
+/// metal (second_look.h).
 void settle_fit(const PictureBench& bench, const PrefilterOptions& options, Prefiltered& chain);
 
 }  // namespace petrichor::texproc::detail

@@ -30,6 +30,12 @@ public:
           pixel_(2.0 * std::tan(view.field_of_view_deg * std::numbers::pi / 360.0) / view.width)
     {
     }
+    // Where a place inside of a pixel is, 0..1 across and down what it covers; for ray().
+    std::array<double, 2> inside(int x, int y, double across, double down) const
+    {
+        if (view_.covers == 1.0) return {x + across, y + down};  // to the last bit as ever
+        return {x + 0.5 + (across - 0.5) * view_.covers, y + 0.5 + (down - 0.5) * view_.covers};
+    }
     // x, y in pixels from the upper left corner.
     FloorPoint ray(int frame, double x, double y) const
     {
@@ -48,8 +54,10 @@ public:
     {
         FloorPixel p;
         static_cast<FloorPoint&>(p) = ray(frame, x + 0.5, y + 0.5);
-        const FloorPoint left = ray(frame, x, y + 0.5), right = ray(frame, x + 1.0, y + 0.5);
-        const FloorPoint up = ray(frame, x + 0.5, y), down = ray(frame, x + 0.5, y + 1.0);
+        const auto [left_x, up_y] = inside(x, y, 0.0, 0.0);
+        const auto [right_x, down_y] = inside(x, y, 1.0, 1.0);
+        const FloorPoint left = ray(frame, left_x, y + 0.5), right = ray(frame, right_x, y + 0.5);
+        const FloorPoint up = ray(frame, x + 0.5, up_y), down = ray(frame, x + 0.5, down_y);
         p.across_u = right.u - left.u, p.across_v = right.v - left.v;
         p.along_u = down.u - up.u, p.along_v = down.v - up.v;
         return p;

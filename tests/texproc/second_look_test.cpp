@@ -1,0 +1,179 @@
+// Two lobes weighed once more, by pictures that each material draws for itself.
+#include "texproc/prefilter/detail/second_look.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "texproc/prefilter/detail/fit_parts.h"
+#include "texproc/study/fresh_maps.h"
+
+namespace petrichor::texproc {
+namespace {
+
+ScoredMaps material(const std::string& word, int size = 96)
+{
+    for (ScoredMaps& maps : fresh_maps(size, 21))
+        if (maps.name.starts_with(word)) return std::move(maps);
+    ADD_FAILURE() << "there is no " << word;
+    return {};
+}
+
+PictureOptions few_pictures()
+{
+    PictureOptions o = reference_pictures();
+    o.views[0].width = 60;
+    o.views[0].rows = 40;
+    o.frames = 2;
+    o.samples = 8;
+    o.cases.pop_back();  // metal
+    return o;
+}
+
+const PrefilterOptions kTwoLobes{.rule = "picture", .surface = SurfaceClass::Paint, .lobes = 2};
+
+// Two equal lobes.
+Prefiltered two_lobes(const ScoredMaps& maps, const PrefilterOptions& options = {})
+{
+    PrefilterOptions quick = options;
+    quick.rule = "picture";
+    quick.quick = true;
+    quick.lobes = 1;
+    Prefiltered chain = prefilter_raw(maps.normal, maps.roughness, quick);
+    chain.second = {chain.normal, chain.roughness, std::vector<Image>(chain.roughness.size())};
+    for (std::size_t k = 1; k < chain.roughness.size(); ++k)
+        chain.second.share[k] =
+            Image(chain.roughness[k].width, chain.roughness[k].height, 1, ColorSpace::Data, 0.5f);
+    return chain;
+}
+
+double worst(const PictureBench& bench, const Prefiltered& chain)
+{
+    const auto plain = bench.score({}), scores = bench.score(chain);
+    double most = -1.0;
+    for (std::size_t i = 0; i < scores.size(); ++i) most = std::max(most, scores[i].rmse / plain[i].rmse - 1.0);
+    return most;
+}
+
+double mean(const PictureBench& bench, const Prefiltered& chain)
+{
+    const auto plain = bench.score({}), scores = bench.score(chain);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < scores.size(); ++i) sum += scores[i].rmse / plain[i].rmse - 1.0;
+    return sum / static_cast<double>(scores.size());
+}
+
+// Highlights much too wide, so that what is diffuse is too bright nearly everywhere: other pictures are the judges.
+TEST(SecondLook, MendsWhatIsWorseInPicturesItHasNotSeen)
+{
+    const ScoredMaps maps = material("rivets");
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pictures());
+    Prefiltered chain = two_lobes(maps);
+    for (std::size_t k = 1; k < chain.roughness.size(); ++k)
+        for (std::vector<Image>* levels : {&chain.roughness, &chain.second.roughness})
+            for (float& p : (*levels)[k].pixels) p = std::min(1.7f * p, 1.0f);
+    const Prefiltered wide = chain;
+    EXPECT_TRUE(detail::look_again(bench, kTwoLobes, chain));
+    EXPECT_GT(worst(bench, wide), 0.2) << "or this shows nothing";
+    EXPECT_LT(worst(bench, chain), 0.25 * worst(bench, wide));
+    EXPECT_LT(mean(bench, chain), mean(bench, wide) - 0.05);
+}
+
+// The meaning of the map is nothing to it: smoothness, and normals that point down, get the same light.
+TEST(SecondLook, ReadsTheMapsAsTheyAreNamed)
+{
+    const ScoredMaps maps = material("rivets", 64);
+    PrefilterOptions turned = kTwoLobes;
+    turned.smoothness = turned.green_down = true;
+    ScoredMaps other = maps;
+    Image normal = to_image(maps.normal, ColorSpace::Data), rough = to_image(maps.roughness, ColorSpace::Data);
+    for (std::size_t i = 1; i < normal.pixels.size(); i += 3) normal.pixels[i] = 1.0f - normal.pixels[i];
+    for (float& p : rough.pixels) p = 1.0f - p;
+    other.normal = to_raw(normal, PixelType::U16);
+    other.roughness = to_raw(rough, PixelType::U16);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pictures());
+    const PictureBench of_other(other.normal, other.roughness, turned, few_pictures());
+    Prefiltered chain = two_lobes(maps), turned_chain = two_lobes(other, turned);
+    for (std::size_t k = 1; k < chain.roughness.size(); ++k) {
+        for (std::vector<Image>* levels : {&chain.roughness, &chain.second.roughness})
+            for (float& p : (*levels)[k].pixels) p = std::min(1.7f * p, 1.0f);
+        for (std::vector<Image>* levels : {&turned_chain.roughness, &turned_chain.second.roughness})
+            for (float& smooth : (*levels)[k].pixels) smooth = std::max(1.0f - 1.7f * (1.0f - smooth), 0.0f);
+    }
+    const double wide = mean(bench, chain);
+    EXPECT_NEAR(wide, mean(of_other, turned_chain), 0.01);
+    detail::look_again(bench, kTwoLobes, chain);
+    detail::look_again(of_other, turned, turned_chain);
+    EXPECT_NEAR(mean(bench, chain), mean(of_other, turned_chain), 0.03);
+    EXPECT_LT(mean(bench, chain), wide - 0.05) << "or this shows nothing";
+}
+
+TEST(SecondLook, ABaseColourThatIsNotWrittenStaysAsItIs)
+{
+    const ScoredMaps maps = material("rivets", 64);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pictures());
+    PrefilterOptions options = kTwoLobes;
+    Prefiltered written = two_lobes(maps), chain = written;
+    for (Prefiltered* of : {&written, &chain})
+        for (std::size_t k = 1; k < of->base_share.size(); ++k)
+            for (float& share : of->base_share[k].pixels) share *= 0.8f;  // too dark
+    const std::vector<Image> before = chain.base_share;
+    detail::look_again(bench, options, written);
+    options.base_colors = false;
+    detail::look_again(bench, options, chain);
+    for (std::size_t k = 1; k < before.size(); ++k) EXPECT_EQ(chain.base_share[k].pixels, before[k].pixels) << k;
+    EXPECT_NE(written.base_share[1].pixels, before[1].pixels) << "or this shows nothing";
+}
+
+TEST(HeldOutPictures, AreEachMaterialsOwnAndNoneOfTheScored)
+{
+    const ScoredMaps one = material("rivets", 64), other = material("mica", 64);
+    const PictureBench a(one.normal, one.roughness, {}, few_pictures());
+    const PictureBench b(other.normal, other.roughness, {}, few_pictures());
+    EXPECT_NE(detail::floors_seed(a.levels()), detail::floors_seed(b.levels()));
+    const PictureOptions o = held_out_pictures(SurfaceClass::Paint, detail::floors_seed(a.levels()));
+    const PictureOptions scored = all_pictures();
+    ASSERT_EQ(o.cases.size() % kHeldOutViews, 0u);
+    for (std::size_t i = 0; i < o.cases.size(); ++i) {
+        EXPECT_FALSE(o.cases[i].metal);
+        EXPECT_EQ(o.cases[i].light, o.cases[i - i % kHeldOutViews].light);
+        EXPECT_LT(o.cases[i].view, static_cast<int>(o.views.size()));
+        for (std::size_t j = i + 1; j < i - i % kHeldOutViews + kHeldOutViews; ++j)
+            EXPECT_NE(o.cases[i].view, o.cases[j].view) << "a light is seen from different places";
+    }
+    for (const PictureLight& light : o.lights)
+        for (const PictureLight& of_score : scored.lights) EXPECT_NE(light.to_light, of_score.to_light);
+    for (const PictureCase& c : held_out_pictures(SurfaceClass::Metal, 3).cases) EXPECT_TRUE(c.metal);
+}
+
+// Few pixels of a picture say what all of them do: they are as small as there.
+TEST(PictureView, ASampleOfAPictureIsAsFarFromTheTruth)
+{
+    const ScoredMaps maps = material("rivets");
+    PictureOptions all = reference_pictures();
+    all.frames = 2;
+    all.samples = 8;
+    PictureOptions some = all;
+    some.views[0].width /= 5;
+    some.views[0].rows /= 5;
+    PictureOptions large = some;
+    some.views[0].covers = 0.2;
+    const auto of_all = PictureBench(maps.normal, maps.roughness, {}, all).score({});
+    const auto of_some = PictureBench(maps.normal, maps.roughness, {}, some).score({});
+    const auto of_large = PictureBench(maps.normal, maps.roughness, {}, large).score({});
+    double apart = 0.0, large_apart = 0.0;
+    for (std::size_t i = 0; i < of_all.size(); ++i) {
+        apart += std::abs(std::log(of_some[i].rmse / of_all[i].rmse));
+        large_apart += std::abs(std::log(of_large[i].rmse / of_all[i].rmse));
+    }
+    EXPECT_LT(apart, 0.5 * large_apart);
+    EXPECT_LT(apart, 0.2 * static_cast<double>(of_all.size()));
+}
+
+}  // namespace
+}  // namespace petrichor::texproc
