@@ -4,11 +4,15 @@
 #include <cmath>
 #include <cstddef>
 
+#include "weather/models/physical/mapping.h"
+#include "weather/physics/constants.h"
+
 namespace petrichor::film {
 namespace {
 
 constexpr double kStep_s = 1.0 / 16.0;
 constexpr double kSteps = 2000.0;
+constexpr double kThickestFilm = 0.98;  // a millimetre
 
 // Ice in a kind of hollow, and what has melted of it since.
 struct Store {
@@ -20,6 +24,7 @@ struct Store {
 struct Walk {
     Store cracks, puddles;
     double not_snow = 0.0;
+    double film = 0.0;
 };
 
 // What the model takes of a store in the cold stays as ice.
@@ -75,6 +80,8 @@ ArtistIceTimeline::ArtistIceTimeline(const weather::ArtistTimeline& weather)
         } else if (celsius <= 0.0) {
             freeze(walk.cracks, before.cracks, after.cracks, frozen * slow);
             freeze(walk.puddles, before.puddles, after.puddles, frozen * slow);
+            walk.film += std::max(before.wetness - after.wetness, 0.0) + before.rain * p.accumulation_rate_wetness * h;
+            walk.film = std::min(walk.film, kThickestFilm);
             const double fallen =
                 0.5 * (before.snowfall + after.snowfall) * p.accumulation_rate_snow * h;
             walk.not_snow += std::max(after.snow - before.snow - fallen, 0.0);
@@ -83,10 +90,11 @@ ArtistIceTimeline::ArtistIceTimeline(const weather::ArtistTimeline& weather)
             const bool dry = weather.rainfall_at(time) == 0.0;
             thaw(walk.cracks, share, dry ? p.evaporation_rate_cracks * drive * h : 0.0);
             thaw(walk.puddles, share, dry ? p.evaporation_rate_puddles * drive * h : 0.0);
+            walk.film *= 1.0 - share;
             if (before.snow > 0.0) walk.not_snow *= std::min(after.snow / before.snow, 1.0);
         }
         walk.not_snow = std::min(walk.not_snow, after.snow);
-        steps_.push_back({walk.cracks.all(), walk.puddles.all(), walk.not_snow});
+        steps_.push_back({walk.cracks.all(), walk.puddles.all(), walk.not_snow, walk.film});
         before = after;
     }
 }
@@ -102,7 +110,12 @@ ArtistIce ArtistIceTimeline::at(double time_s) const
     const ArtistIce& a = steps_[i];
     const ArtistIce& b = steps_[i + 1];
     return {between(a.cracks, b.cracks), between(a.puddles, b.puddles),
-            between(a.not_snow, b.not_snow)};
+            between(a.not_snow, b.not_snow), between(a.film, b.film)};
+}
+
+double ArtistIceTimeline::glaze_mm(double time_s) const
+{
+    return weather::film_of_wetness_kg_m2({}, at(time_s).film) * (1000.0 / weather::kIceDensity);
 }
 
 }  // namespace petrichor::film

@@ -13,6 +13,7 @@ namespace petrichor::film {
 struct ArtistIce {
     double cracks = 0.0, puddles = 0.0;  ///< on top of the model's: ice, and what has melted of it
     double not_snow = 0.0;               ///< of the model's snow: was water, and has not fallen
+    double film = 0.0;                   ///< clear ice of its wetness and of rain that fell in the cold, 0..1 as that
 };
 
 /// A moment of the model with that ice in its cracks and puddles, and less snow.
@@ -25,6 +26,8 @@ public:
     explicit ArtistIceTimeline(const weather::ArtistTimeline& weather);
 
     ArtistIce at(double time_s) const;
+    /// How thick its film is then, mm.
+    double glaze_mm(double time_s) const;
 
 private:
     double start_s_ = 0.0, step_s_ = 1.0;

@@ -147,6 +147,8 @@ WeatherScript script_at_place(const WeatherScript& script, const weather::PlaceF
     return out;
 }
 
+constexpr std::uint32_t kNoMaterial = 0xffffffu;
+
 struct ArtistPlaces::Impl {
     struct Solved {
         WeatherScript script;
@@ -224,22 +226,28 @@ std::shared_ptr<const gpu::PlaceWeather> ArtistPlaces::at(double time_s) const
     for (const Impl::Solved& s : m.solved) moments.push_back(moment_of(s));
     const auto place = std::make_shared<gpu::PlaceWeather>();
     place->shape = m.shape;
-    for (std::size_t i = 0; i < m.solved_of.size(); ++i) {
-        const shared::WeatherMoment& here = moments[m.solved_of[i]];
+    const auto put = [](std::vector<glm::vec4>& states, const Impl::Solved& solved, const shared::WeatherMoment& here, double glaze_mm,
+                        float hoar, float rain, std::uint32_t material) {
         const double frozen = static_cast<double>(here.water_to_snow);
         // Lux's film_albedo is wetness x 0.85 x what is not frozen; the pixel has the 0.85.
-        const weather::ArtistParams& params = m.solved[m.solved_of[i]].script.params;
-        const auto influence = static_cast<float>(params.wetness_influence_on_albedo);
+        const auto influence = static_cast<float>(solved.script.params.wetness_influence_on_albedo);
         const float film = influence > 0.0f ? std::min(1.0f, here.film_albedo / influence) : 0.0f;
-        place->states.emplace_back(film, here.flood_cracks, here.flood_puddles, here.snow_amount);
-        place->states.emplace_back(here.frost * m.hoar[i], static_cast<float>(frozen), m.rain[i],
-                                   0.0f);
-        place->states.emplace_back(here.film_mm, here.puddle_depth_m, here.snow_depth_m,
-                                   here.ice_kg_m2);
-        place->states.emplace_back(static_cast<float>(1.0 - frozen), here.air_temperature_k,
-                                   m.rain[i], static_cast<float>(m.material[i]));
+        states.emplace_back(film, here.flood_cracks, here.flood_puddles, here.snow_amount);
+        states.emplace_back(here.frost * hoar, static_cast<float>(frozen), rain, 0.0f);
+        states.emplace_back(here.film_mm, here.puddle_depth_m, here.snow_depth_m, here.ice_kg_m2);
+        states.emplace_back(static_cast<float>(1.0 - frozen), here.air_temperature_k, static_cast<float>(glaze_mm),
+                            static_cast<float>(material));
+    };
+    const auto glaze_mm = [&](const Impl::Solved& s) { return s.ice ? s.ice->glaze_mm(time_s) : 0.0; };
+    std::vector<double> glazes_mm;
+    for (const Impl::Solved& s : m.solved) glazes_mm.push_back(glaze_mm(s));
+    for (std::size_t i = 0; i < m.solved_of.size(); ++i) {
+        const std::uint32_t of = m.solved_of[i];
+        put(place->states, m.solved[of], moments[of], glazes_mm[of], m.hoar[i], m.rain[i], m.material[i]);
     }
     place->states = states_with_parts(std::move(place->states), PLACE_STATE_TEXELS, m.shelter, m.area_m2);
+    // What no patch lies on, as leaves, finds its glaze there; ground of no material goes on as that.
+    if (const double open_mm = glaze_mm(m.open); open_mm > 0.0) put(place->open, m.open, moment_of(m.open), open_mm, 1.0f, 1.0f, kNoMaterial);
     // Everywhere the same film has run into the hollows.
     scene::BasinWater water(m.basins);
     const double depth_m = kPuddleRain_m * static_cast<double>(moment_of(m.open).flood_puddles);

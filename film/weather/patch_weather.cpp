@@ -117,7 +117,9 @@ void put_state(const weather::PatchState& s, const weather::Surface& surface,
               narrow(1e-3 * standing_mm),
               narrow(d.snow_depth_m), narrow(ice)};
     out[3] = {narrow(all > 0.0 ? std::clamp(1.0 - frozen / all, 0.0, 1.0) : 1.0),
-              narrow(c.surface_temp_c + weather::kZeroCelsiusK), narrow(s.rain_share),
+              narrow(c.surface_temp_c + weather::kZeroCelsiusK),
+              // Hoar is in the film's ice too.
+              narrow(std::max(c.film_ice - s.hoar_kg_m2, 0.0) * (1000.0 / weather::kIceDensity)),
               static_cast<float>(material)};
 }
 

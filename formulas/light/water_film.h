@@ -32,24 +32,25 @@ SHARED_FN float water_fresnel(float cosine)
     return kWaterF0 + (1.0f - kWaterF0) * m2 * m2 * m;
 }
 
-// Of thin wetness; standing water is a surface of its own, snow and hoar frost lie over it, ice is not wet.
-// Pores drink the first of it, and what of it is frozen is in no film of the moment or of a patch. Its normal
-// is left to the caller.
+// Of thin wetness; standing water is a surface of its own, snow and hoar frost lie over it. Pores drink the first of
+// it. What is frozen of it is glaze: a coat of clear ice, which lies over the pores and levels more of what is below, is a little
+// uneven itself and mirrors about as water does (n = 1.31: 0.018). Its normal is left to the caller.
 SHARED_FN WaterFilm water_film(DryMaterial dry, SurfaceState state, WeatherMoment moment)
 {
     const float pouring = saturate(2.0f * moment.rain) * step(1.0e-4f, moment.film_smoothness);
     const float wet = mix(moment.film_smoothness, 0.65f, pouring) * state.film / kClosedFilm;
-    const float drunk = 0.3f * dry.porosity * (1.0f - dry.metallic);
+    const float icy = saturate(moment.water_to_snow);
+    const float drunk = 0.3f * dry.porosity * (1.0f - dry.metallic) * (1.0f - icy);
     const float over = saturate((wet - drunk) / (1.0f - drunk));
     const float thick = smooth_edge(0.2f, 1.0f, over);
     WaterFilm film;
     film.share = smooth_edge(0.0f, 1.0f, over) * (1.0f - state.water) * (1.0f - state.snow) *
                  (1.0f - state.frost);
     // What is rough stands through the thickest film a little, and drops dent it.
-    const float least = mix(0.1f, dry.roughness, 0.15f) + 0.03f * pouring;
+    const float least = mix(0.1f, dry.roughness, 0.15f * (1.0f - icy)) + 0.03f * max(pouring, icy);
     film.roughness = mix(max(dry.roughness, 0.1f), min(least, max(dry.roughness, 0.1f)), thick);
     // Grain, not stones: chosen by eye on wet cobbles by day and under a lamp.
-    film.level = 0.35f * thick;
+    film.level = mix(0.35f, 0.8f, icy) * thick;
     film.lit = 1.0f;
     film.normal = vec3(0.0f, 1.0f, 0.0f);
     return film;

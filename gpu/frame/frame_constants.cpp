@@ -181,13 +181,13 @@ VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weath
     bool film = false;
     for (std::size_t i = 0; i < place.states.size(); i += PLACE_STATE_TEXELS) {
         const glm::vec4& shown = place.states[i];
-        film = film || shown.x > 0.0f;
+        film = film || shown.x > 0.0f || place.states[i + 3].z > 0.0f;
         visible.water = visible.water || shown.y > 0.0f || shown.z > 0.0f;
         visible.snow = visible.snow || shown.w > 0.0f;
         visible.frost = visible.frost || place.states[i + 1].x > 0.0f;
     }
     if (!place.open.empty()) {
-        film = film || place.open[0].x > 0.0f;
+        film = film || place.open[0].x > 0.0f || place.open[3].z > 0.0f;
         visible.water = visible.water || place.open[0].y > 0.0f || place.open[0].z > 0.0f;
         visible.snow = visible.snow || place.open[0].w > 0.0f;
         visible.frost = visible.frost || place.open[1].x > 0.0f;

@@ -11,7 +11,7 @@
 //   2  film mm, mean depth of the water in the relief m, snow m, ice kg/m2
 // A level is in heights of the material's relief, of water whose mean depth is that of texel 2; above -1.
 // Where there is one, texel 0 has instead of the level in cracks the share of the ground below it.
-//   3  liquid share of all water, surface temperature K, share of the rain, number of the material
+//   3  liquid share of all water, surface temperature K, clear ice on it (glaze) mm, number of the material
 #define PLACE_STATE_TEXELS 4
 
 SHARED_BEGIN

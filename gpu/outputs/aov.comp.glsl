@@ -51,6 +51,7 @@ void set_si(inout AovPoint p)
     }
     p.stores = place_state(patch_number, 2);
     p.state = place_state(patch_number, 3);
+    p.state.z = place_state(patch_number, 1).z;
     if (p.g.base_normal.y > 0.3) p.stores.y = max(p.stores.y, place_depth(p.position));
 }
 

@@ -57,6 +57,17 @@ TEST(ArtistIce, FrozenWaterIsNoSnow)
     EXPECT_GT(weather.state_at(weather::to_time_us(15.0)).snow, 0.1) << "the model's own";
 }
 
+TEST(ArtistIce, WhatIsWetAndWhatRainsInTheColdIsGlazed)
+{
+    const ArtistIceTimeline wet(frost_and_thaw());
+    EXPECT_EQ(wet.glaze_mm(3.0), 0.0) << "water is no ice";
+    EXPECT_GT(wet.glaze_mm(15.0), 0.1);
+    EXPECT_LT(wet.glaze_mm(40.0), 0.02) << "a thaw takes it";
+    // Rain that falls on what is cold already makes it thicker.
+    const ArtistIceTimeline rained(frost_and_thaw(0.3));
+    EXPECT_GT(rained.glaze_mm(15.0), 1.2 * wet.glaze_mm(15.0));
+}
+
 TEST(ArtistIce, SnowThatFallsStays)
 {
     const ArtistTimeline weather = frost_and_thaw(0.2);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "formulas/weather/apply_weather.h"
+#include "formulas/weather/falls_here.h"
 #include "formulas/weather/surface_weather.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/place_io.h"
@@ -112,7 +113,7 @@ shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::Weat
             shared::water_cover(flood, m.default_height, 1.0f, 1.0f, m.water_slope_damp).anywhere;
     }
     if (m.wetness != Wetness::None) state.water = std::max(state.water, under_water);
-    state.film = shown.x * film_of(m);
+    state.film = std::max(shown.x, shared::wetness_of_film(texels[3].z)) * film_of(m);
     state.frost = mean_frost(frost) * (1.0f - state.water);
     state.snow_smoothness = 0.3f;
     state.way = shared::kMeanWaterWay;

@@ -21,6 +21,9 @@ struct LocalWeather {
     bool placed;   // from a patch
 };
 
+// Share of a surface under clear ice, which shows as its film does.
+float glaze_of(uint patch_number) { return wetness_of_film(place_state(patch_number, 3).z); }
+
 LocalWeather weather_everywhere(SurfaceInput at, Exposure open)
 {
     LocalWeather here;
@@ -29,7 +32,9 @@ LocalWeather weather_everywhere(SurfaceInput at, Exposure open)
     here.film = shares.film;
     // Beside patches the frame's film is a closed one (gpu/frame/frame_constants.h): how much of it
     // lies in the open is told by its water.
-    if (PLACE != 0u && frame.place.grid.levels > 0u) here.film *= wetness_of_film(frame.weather.film_mm);
+    if (PLACE != 0u && frame.place.grid.levels > 0u) {
+        here.film *= max(wetness_of_film(frame.weather.film_mm), frame.place.open_patch != kNoPatch ? glaze_of(frame.place.open_patch) : 0.0);
+    }
     here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) * shares.flood;
     here.snow = 0.0;
     if (SNOW != 0u) {
@@ -85,7 +90,7 @@ LocalWeather local_weather(SurfaceInput at)
     const vec4 second_texel = place_state(near.number, 1);
     LocalWeather here;
     here.open = min(second_texel.z, 1.0);
-    here.film = first_texel.x;
+    here.film = max(first_texel.x, glaze_of(near.number));
     here.flood = first_texel.yz;
     here.snow = first_texel.w;
     here.frost = second_texel.x;
