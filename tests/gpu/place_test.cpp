@@ -170,6 +170,40 @@ TEST_F(PlaceTest, WhatHasNoPatchHasTheFilmOfTheFrame)
 
 // Ground goes on as its patches are in the open: no border where they end. What is made of another
 // material is no such ground.
+// Strips above the floor, which have no patch: a group of lanes has pixels of both, and those of the strips ask where the rain
+// comes from one direction after the other. Fragments read the directions as they are.
+TEST_F(PlaceTest, WhatHasNoPatchIsShelteredAlikeBesidePixelsThatHaveOne)
+{
+    load_floor();
+    std::vector<Primitive> quads{quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}),
+                                   quad({-2.1f, 0, -3}, {0, 0, 6}, {0, 2, 0}), quad({2.1f, 0, 3}, {0, 0, -6}, {0, 1, 0})};
+    for (int i = 0; i < 10; ++i)
+        quads.push_back(quad({-1.9f + 0.4f * static_cast<float>(i), 0.8f, 2}, {0.2f, 0, 0}, {0, 0, -4}));
+    renderer->load(scene_of(quads, {plain_material(glm::vec3(0.3f))}), {});
+    Frame frame = from_above(dry());
+    frame.settings.shelter = true;
+    frame.weather.rain = 1.0f;
+    frame.weather.wind_m_s = {6.0f, 1.0f};
+    frame.weather.film_mm = 1.0f;
+    frame.weather.film_albedo = 1.0f;
+    frame.weather.film_smoothness = 1.0f;
+    frame.settings.surface_path = SurfacePath::Fragment;
+    const RenderResult expected = renderer->render(frame);
+    frame.settings.surface_path = SurfacePath::Visibility;
+    const RenderResult r = renderer->render(frame);
+    float least = 1.0f, most = 0.0f;
+    for (int y = 2; y < 62; ++y) {
+        for (int x = 2; x < 62; ++x) {
+            if (aov(r, "position", x, y, 1) < 0.79f || aov(r, "position", x, y, 1) > 0.81f) continue;
+            const float film = aov(r, "film", x, y);
+            EXPECT_NEAR(film, aov(expected, "film", x, y), 0.01f) << x << " " << y;
+            least = std::min(least, film);
+            most = std::max(most, film);
+        }
+    }
+    EXPECT_GT(most - least, 0.2f) << "a wall keeps rain away";
+}
+
 TEST_F(PlaceTest, GroundBeyondThePatchesIsWhatTheyAreInTheOpen)
 {
     load_floor();
