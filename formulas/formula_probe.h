@@ -436,7 +436,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         WeatherMoment moment;
         moment.film_smoothness = 0.5f * b.w;
         moment.rain = c.x;
-        moment.water_to_snow = 0.5f * c.y;
+        moment.water_to_snow = c.y;
         WaterFilm film = water_film(dry, state, moment);
         film.normal = probe_direction(c.x, c.y);
         film.roughness = 0.2f + 0.8f * film.roughness;

@@ -39,7 +39,8 @@ SHARED_FN WaterFilm water_film(DryMaterial dry, SurfaceState state, WeatherMomen
 {
     const float pouring = saturate(2.0f * moment.rain) * step(1.0e-4f, moment.film_smoothness);
     const float wet = mix(moment.film_smoothness, 0.65f, pouring) * state.film / kClosedFilm;
-    const float icy = saturate(moment.water_to_snow);
+    // While less than half is frozen the film is what is liquid.
+    const float icy = smooth_edge(0.5f, 1.0f, moment.water_to_snow);
     const float drunk = 0.3f * dry.porosity * (1.0f - dry.metallic) * (1.0f - icy);
     const float over = saturate((wet - drunk) / (1.0f - drunk));
     const float thick = smooth_edge(0.2f, 1.0f, over);
