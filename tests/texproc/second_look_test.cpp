@@ -130,6 +130,22 @@ TEST(SecondLook, ABaseColourThatIsNotWrittenStaysAsItIs)
     EXPECT_NE(written.base_share[1].pixels, before[1].pixels) << "or this shows nothing";
 }
 
+TEST(SecondLook, SameNumbersForAnyThreads)
+{
+    const ScoredMaps maps = material("rivets", 48);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pictures());
+    Prefiltered one = two_lobes(maps), three = one;
+    PrefilterOptions options = kTwoLobes;
+    options.threads = 1;
+    EXPECT_TRUE(detail::look_again(bench, options, one));
+    options.threads = 3;
+    detail::look_again(bench, options, three);
+    for (std::size_t k = 1; k < one.roughness.size(); ++k) {
+        EXPECT_EQ(one.roughness[k].pixels, three.roughness[k].pixels) << k;
+        EXPECT_EQ(one.second.normal[k].pixels, three.second.normal[k].pixels) << k;
+    }
+}
+
 TEST(HeldOutPictures, AreEachMaterialsOwnAndNoneOfTheScored)
 {
     const ScoredMaps one = material("rivets", 64), other = material("mica", 64);
