@@ -4,7 +4,8 @@
 #include <cstring>
 
 #include "base/error.h"
-        ((places + 1) * PLACE_STATE_TEXELS + SKY_DIRECTIONS * PLACE_FALL_TEXELS) * sizeof(glm::vec4),
+#include "gpu/frame/place_falls_io.h"
+#include "gpu/place/place_parts.h"
 
 namespace petrichor::gpu {
 namespace {
