@@ -399,7 +399,8 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     }
     VkPipelineVertexInputStateCreateInfo vertex_input{};
     vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-    vertex_input.vertexBindingDescriptionCount = 1;
+    // What reads no vertices asks for no buffer of them.
+    vertex_input.vertexBindingDescriptionCount = attributes.empty() ? 0u : 1u;
     vertex_input.pVertexBindingDescriptions = &stream;
     vertex_input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());
     vertex_input.pVertexAttributeDescriptions = attributes.data();
