@@ -19,8 +19,8 @@ SHARED_FN float curtain_away(int k) { return k == 0 ? 1.5f : k == 1 ? 3.1f : 6.4
 // the view there, of what falls thicker and thinner.
 SHARED_FN float curtain_cell(vec2 at, float streak, uint seed)
 {
-    const float cell = 0.8f * endless_noise(at * 0.55f, seed) + 0.2f * endless_noise(at * 1.3f + splat2(5.0f), seed + 1u);
-    const float t = clamp((cell - 0.37f) / 0.4f, 0.0f, 1.0f);
+    const float cell = 0.78f * endless_noise(at * 0.7f, seed) + 0.22f * endless_noise(at * 1.3f + splat2(5.0f), seed + 1u);
+    const float t = clamp((cell - 0.36f) / 0.42f, 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t) * (0.8f + 0.4f * streak);
 }
 
@@ -51,10 +51,10 @@ SHARED_FN vec2 rain_curtains(vec3 direction, vec2 drift_m, vec2 lean, float rain
         const float aside = across * height + 0.5f * wander;
         const vec2 fine = (ahead + sideways * (aside / away)) * (7.0f + 1.2f * away);
         const float streak = 0.7f * endless_noise(fine, 360u + uint(k)) + 0.3f * endless_noise(fine * 2.3f, 363u + uint(k));
-        passes *= exp(-1.9f * rain * hangs * curtain_cell(at, streak, 350u + 3u * uint(k)));
+        passes *= exp(-1.6f * rain * hangs * curtain_cell(at, streak, 350u + 3u * uint(k)));
     }
     // Where the layer ends, some ten of its heights away, daylight comes in below it; what curtains take there is between them.
-    const float bright = 1.0f + rain * (0.9f * exp(-18.0f * rise) + 0.27f * beside);
+    const float bright = 1.0f + rain * (0.9f * exp(-18.0f * rise) + 0.30f * beside);
     return vec2(mix(0.5f, bright, passes), 1.0f - passes);
 }
 

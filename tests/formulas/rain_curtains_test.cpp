@@ -91,7 +91,7 @@ TEST(RainCurtains, AreNoStripes)
         }
     }
     std::sort(steps.begin(), steps.end());
-    EXPECT_LT(steps[steps.size() * 99 / 100], 0.1f);
+    EXPECT_LT(steps[steps.size() * 99 / 100], 0.12f);
     EXPECT_LT(same / all, 0.6);
 }
 
