@@ -4,7 +4,7 @@
 
 #include "gpu/frame/frame_io.h"
 
-#define FRAME_WORD_COUNT 238  // behind them FrameArrays begins, with its falls
+#define FRAME_WORD_COUNT 239  // behind them FrameArrays begins, with its falls
 #define FRAME_FALL_WORDS 19
 #define FRAME_SPEC_LANES 255  // of a CPU's subgroup, FrameTargets::lanes; 0: constants are read as they are
 // X(type, member)
@@ -48,7 +48,7 @@
     X(uint, patches.neighbors) X(float, snow_lift_m) X(float, place.grid.cell_m) X(uint, place.grid.levels)  \
     X(uint, place.grid.patches) X(uint, place.grid.table_mask) X(uint, place.grid.neighbors)                 \
     X(vec2, place.basin_corner_m) X(float, place.basin_cell_m) X(uint, place.basin_width)                    \
-    X(uint, place.basin_depth) X(uint, place.open_patch)
+    X(uint, place.basin_depth) X(uint, place.open_patch) X(float, place.glazed)
 
 #ifdef __cplusplus
 #include <cstddef>

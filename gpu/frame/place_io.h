@@ -23,6 +23,7 @@ struct PlaceConstants {
     uint basin_width;  // cells; 0: no hollows
     uint basin_depth;
     uint open_patch;  // state of open ground of its material without a patch; kNoPatch: there is none
+    float glazed;     // of what is wet or icy of all patches, how much is clear ice, 0..1: films of places look as that
 };
 
 SHARED_END

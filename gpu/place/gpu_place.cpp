@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "formulas/weather/falls_here.h"
 #include "gpu/frame/place_falls_io.h"
 #include "gpu/place/place_parts.h"
 
@@ -49,6 +50,18 @@ void check(const PlaceWeather& place)
                 "Give as many states as there are patches, and a level for every hollow.");
 }
 
+// One number for all of them: the lighting does not know of what patch a pixel is.
+float glazed_share(const std::vector<glm::vec4>& states)
+{
+    double ice = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < states.size(); i += PLACE_STATE_TEXELS) {
+        const float glaze = shared::wetness_of_film(states[i + 3].z);
+        ice += static_cast<double>(glaze);
+        all += static_cast<double>(std::max(states[i].x, glaze));
+    }
+    return all > 0.0 ? static_cast<float>(ice / all) : 0.0f;
+}
+
 std::vector<std::uint32_t> materials_of(const PlaceWeather& place)
 {
     std::vector<std::uint32_t> materials;
@@ -85,7 +98,7 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
     fill(*table_, tree.words);
     fill(*labels_, shape.labels);
     constants_ = {tree.grid, shape.basin_corner_m, shape.basin_cell_m, shape.basin_width,
-                  shape.basin_depth, shared::kNoPatch};
+                  shape.basin_depth, shared::kNoPatch, 0.0f};
     level_count_ = levels;
 }
 
@@ -108,6 +121,7 @@ void GpuPlace::update(const Device& device, const PlaceWeather* place)
     if (!place->open.empty())
         std::memcpy(static_cast<std::byte*>(states_->mapped) + place->states.size() * sizeof(glm::vec4),
                     place->open.data(), place->open.size() * sizeof(glm::vec4));
+    constants_.glazed = glazed_share(place->states);
     constants_.open_patch = place->open.empty() ? shared::kNoPatch : constants_.grid.patches;
     fill(*levels_, place->levels_m);
 }

@@ -126,7 +126,7 @@ TEST(ShelterParts, DrawTheLineBelowAnEdgeInRain)
     const auto parts = gpu::parts_of(place->shape->table, place->shape->grid);
     ASSERT_EQ(parts.size(), yard.sites.shelter.cuts.size());
     ASSERT_EQ(place->states.size(), (yard.patches.count + gpu::count_of_parts(parts)) * PLACE_STATE_TEXELS);
-    const auto rain_share = [&](std::size_t number) { return place->states[number * PLACE_STATE_TEXELS + 3].z; };
+    const auto rain_share = [&](std::size_t number) { return place->states[number * PLACE_STATE_TEXELS + 1].z; };
     std::size_t lines = 0;
     float outside = 0.0f, below = 0.0f;
     for (const gpu::PlaceParts& one : parts) {

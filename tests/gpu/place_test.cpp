@@ -76,7 +76,8 @@ TEST_F(PlaceTest, LabelsAreThoseOfThePatchToTheBit)
     for (std::uint32_t i = 0; i < patches.count; ++i) {
         const auto f = static_cast<float>(i);
         place->states[i * PLACE_STATE_TEXELS + 2] = {0.1f * f, 0.01f * f, 0.003f * f, 2.0f * f};
-        place->states[i * PLACE_STATE_TEXELS + 3] = {0.5f, 250.0f + f, 0.25f, 1.0f};
+        place->states[i * PLACE_STATE_TEXELS + 1].z = 0.25f;
+        place->states[i * PLACE_STATE_TEXELS + 3] = {0.5f, 250.0f + f, 0.1f, 1.0f};
     }
     for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
         Frame frame = from_above(place);
@@ -213,7 +214,7 @@ TEST_F(PlaceTest, GroundBeyondThePatchesIsWhatTheyAreInTheOpen)
                             {plain_material(glm::vec3(0.3f)), plain_material(glm::vec3(0.3f))}),
                    {});
     auto place = dry();
-    place->open = {{0.6f, 0, 0, 0}, {0.5f, 0, 1, 0}, {0.1f, 0, 0, 0.02f}, {0, 265.0f, 1, 0.0f}};
+    place->open = {{0.6f, 0, 0, 0}, {0.5f, 0, 1, 0}, {0.1f, 0, 0, 0.02f}, {0, 265.0f, 0, 0.0f}};
     Frame frame = from_above(place);
     frame.settings.aovs.push_back("frost");
     frame.camera = look({22, 6, 20}, {22, 0, 20}, 0.7f);

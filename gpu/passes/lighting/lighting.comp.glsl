@@ -194,7 +194,10 @@ void main()
                 // The film is not mixed into the surface: below it that is as rough as it was.
                 WeatherMoment below = frame.weather;
                 below.film_smoothness = 0.0;
-                film = water_film(dry, state, frame.weather);
+                WeatherMoment frozen = frame.weather;
+                // What of a patch's film is frozen is in its glaze already.
+                if (frame.place.grid.levels > 0u) frozen.water_to_snow = frame.place.glazed;
+                film = water_film(dry, state, frozen);
                 // A loop that ends at once where no wall drinks: a CPU takes both sides of a branch.
                 const float wall = state.film > 0.0 ? drinking_wall(g.base_normal.y, dry.porosity * (1.0 - dry.metallic)) : 0.0;
                 const vec3 along = along_wall(g.base_normal);
