@@ -35,10 +35,10 @@ std::vector<Rule> ground_rules()
              s.ground.drains.insert(s.ground.drains.end(), drains.begin(), drains.end());
          }},
         {{"ground", "tap",
-          "[{ x_z_m = [2.0, -1.5], litres_per_min = 20.0, temperature_C = 10.0, from_s = 0.0, to_s = 2.0 }]",
+          "[{ x_z_m = [2.0, -1.5], litres_per_min = 20.0, temperature_c = 10.0, from_s = 0.0, to_s = 2.0 }]",
           "water that is let in on the ground, where the weather has places; tables "
           "[[ground.tap]] do as well. It wets what it runs over, keeps it from freezing by its heat "
-          "(temperature_C, 10 if not said) and fills the hollow below. A minute is that of a second of the film that is an "
+          "(temperature_c, 10 if not said) and fills the hollow below. A minute is that of a second of the film that is an "
           "hour (or what hours_per_second says), under keys and presets too; from_s and to_s are seconds of the film; "
           "without them it always runs"},
          [](Scenario& s, const TomlValue& v) { s.ground.taps = read_taps(v); }},

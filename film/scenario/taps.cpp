@@ -15,7 +15,7 @@ std::vector<ScenarioTap> read_taps(const TomlValue& value)
         ScenarioTap tap;
         bool placed = false, flows = false;
         for (const auto& [name, entry] :
-             one.entries({"x_z_m", "litres_per_min", "temperature_C", "from_s", "to_s"})) {
+             one.entries({"x_z_m", "litres_per_min", "temperature_c", "from_s", "to_s"})) {
             if (name == "x_z_m") {
                 const auto n = entry.numbers(2, -kFarthest_m, kFarthest_m);
                 tap.x_z_m = {n[0], n[1]};
@@ -23,7 +23,7 @@ std::vector<ScenarioTap> read_taps(const TomlValue& value)
             } else if (name == "litres_per_min") {
                 tap.litres_per_min = entry.number(0.0, kMostLitresMin);
                 flows = true;
-            } else if (name == "temperature_C") {
+            } else if (name == "temperature_c") {
                 tap.temperature_c = entry.number(0.0, 100.0);
             } else if (name == "from_s") {
                 tap.from_s = entry.number(-kLongest_s, kLongest_s);

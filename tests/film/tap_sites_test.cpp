@@ -335,7 +335,7 @@ TEST(GroundKeys, TapsAndDrainsAreTables)
         "[scene]\nfile = \"demo:street\"\n[ground]\ndrains = [[1.0, 2.0, 0.3]]\n"
         "[[ground.drain]]\nx_z_m = [4.0, -5.0]\nradius_m = 0.2\n"
         "[[ground.drain]]\nx_z_m = [0.0, 1.0]\n"
-        "[[ground.tap]]\nx_z_m = [2.0, -1.5]\nlitres_per_min = 20.0\ntemperature_C = 4.0\nto_s = 600.0\n",
+        "[[ground.tap]]\nx_z_m = [2.0, -1.5]\nlitres_per_min = 20.0\ntemperature_c = 4.0\nto_s = 600.0\n",
         "s.toml");
     const std::set<std::vector<double>> drains = [&] {
         std::set<std::vector<double>> all;
@@ -362,9 +362,9 @@ TEST(GroundKeys, WhatATapCannotBeIsRefused)
     EXPECT_NE(error_of("[[ground.tap]]\nlitres_per_min = 1.0\n"), "");
     EXPECT_NE(error_of("[[ground.tap]]\nx_z_m = [nan, 0.0]\nlitres_per_min = 1.0\n"), "");
     EXPECT_NE(error_of(tap + "litres_per_min = 1.0\nfrom_s = 5.0\nto_s = 4.0\n"), "");
-    EXPECT_EQ(error_of(tap + "litres_per_min = 1.0\ntemperature_C = 60\n"), "");
-    EXPECT_NE(error_of(tap + "litres_per_min = 1.0\ntemperature_C = -1\n"), "");
-    EXPECT_NE(error_of(tap + "litres_per_min = 1.0\ntemperature_C = nan\n"), "");
+    EXPECT_EQ(error_of(tap + "litres_per_min = 1.0\ntemperature_c = 60\n"), "");
+    EXPECT_NE(error_of(tap + "litres_per_min = 1.0\ntemperature_c = -1\n"), "");
+    EXPECT_NE(error_of(tap + "litres_per_min = 1.0\ntemperature_c = nan\n"), "");
     EXPECT_NE(error_of(tap + "litres_per_minute = 1.0\n"), "");
     EXPECT_NE(error_of("[[ground.drain]]\nx_z_m = [0.0, 0.0]\nradius_m = -1.0\n"), "");
     EXPECT_NE(error_of("[[ground.drain]]\nradius_m = 1.0\n"), "");
