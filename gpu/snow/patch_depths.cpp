@@ -1,5 +1,6 @@
 #include "gpu/snow/patch_depths.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -18,20 +19,21 @@ using glm::vec4;
 
 constexpr int kUp = 2;
 constexpr float kLifted = 0.06f;  // of a cell: a place on the ground lies in the cell over it
+constexpr float kFaces = 0.4f;    // of a normal along an axis: less does not look along it
 
-// The leaf that faces up in a cell of level 0, as place_leaf() of gpu/frame/place.glsl: its number and level, kNoPatch where
-// there is none.
+// The leaf that looks along an axis in a cell of level 0, as place_leaf() of formulas/light/place_lookup.inc: its number and level,
+// kNoPatch where there is none.
 struct Leaf {
     std::uint32_t number = shared::kNoPatch;
     int level = 0;
 };
 
-Leaf leaf_in(const PlaceShape& shape, const ivec3& cell)
+Leaf leaf_in(const PlaceShape& shape, const ivec3& cell, int axis)
 {
     const shared::PatchGrid& grid = shape.grid;
     for (int level = static_cast<int>(grid.levels) - 1; level >= 0; --level) {
         const shared::PatchKey key =
-            shared::patch_key(ivec3(cell.x >> level, cell.y >> level, cell.z >> level), kUp, level);
+            shared::patch_key(ivec3(cell.x >> level, cell.y >> level, cell.z >> level), axis, level);
         std::uint32_t slot = shared::patch_key_hash(key) & grid.table_mask;
         bool inner = false;
         for (int probe = 0; probe < 64; ++probe) {
@@ -49,6 +51,15 @@ Leaf leaf_in(const PlaceShape& shape, const ivec3& cell)
     return {};
 }
 
+// Where a place looks for its patches: by the axis that its normal points along most, then by the others that it faces.
+std::array<int, 3> axes_of(const vec3& n)
+{
+    const vec3 along = glm::abs(n);
+    std::array<int, 3> axes{n.x >= 0.0f ? 0 : 1, n.y >= 0.0f ? kUp : kUp + 1, n.z >= 0.0f ? 4 : 5};
+    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return along[a / 2] > along[b / 2]; });
+    return axes;
+}
+
 // Shares of four cells, the place between the middles of the inner two: the uniform cubic B-spline.
 vec4 spline(float t)
 {
@@ -58,17 +69,25 @@ vec4 spline(float t)
 
 }  // namespace
 
-void PatchDepths::find(std::shared_ptr<const PlaceShape> shape, const std::vector<vec3>& places_m)
+void PatchDepths::find(std::shared_ptr<const PlaceShape> shape, const std::vector<vec3>& places_m, const std::vector<vec3>& normals)
 {
     shape_ = std::move(shape);
     windows_.clear();
     places_.assign(places_m.size(), {});
     const float cell_m = shape_->grid.cell_m;
-    std::map<std::tuple<int, int, int, int>, std::uint32_t> numbers;  // of a window's first cell and level
+    std::map<std::tuple<int, int, int, int, int>, std::uint32_t> numbers;  // of a window's first cell, level and axis
     for (std::size_t i = 0; i < places_m.size(); ++i) {
-        const vec3 at = places_m[i] + vec3(0.0f, kLifted * cell_m, 0.0f);
-        const ivec3 cell = shared::patch_cell(at, 1.0f / cell_m);
-        const Leaf own = leaf_in(*shape_, cell);
+        const vec3 n = normals.empty() ? vec3(0.0f, 1.0f, 0.0f) : normals[i];
+        vec3 at(0.0f);
+        Leaf own;
+        int axis = kUp;
+        for (const int asked : axes_of(n)) {
+            if (std::abs(n[asked / 2]) < kFaces) break;
+            axis = asked;
+            at = places_m[i] + kLifted * cell_m * (axis == kUp ? vec3(0.0f, 1.0f, 0.0f) : n);
+            own = leaf_in(*shape_, shared::patch_cell(at, 1.0f / cell_m), axis);
+            if (own.number != shared::kNoPatch) break;
+        }
         if (own.number == shared::kNoPatch) continue;
         const int edge = 1 << own.level;
         // In cells of that level, from the middle of one.
@@ -81,13 +100,13 @@ void PatchDepths::find(std::shared_ptr<const PlaceShape> shape, const std::vecto
         places_[i].above = shared::smooth_edge(0.0f, 1.0f, height - std::floor(height));
         for (int layer = 0; layer < 2; ++layer) {
             const int y = static_cast<int>(std::floor(height)) + layer;
-            const auto [found, fresh] = numbers.try_emplace({x, y, z, own.level}, kNowhere);
+            const auto [found, fresh] = numbers.try_emplace({x, y, z, own.level, axis}, kNowhere);
             if (fresh) {
                 const auto middle = [&](int of) { return of * edge + edge / 2 + shared::kPatchCellBias; };
                 Window window;
                 bool any = false;
                 for (int k = 0; k < kSide * kSide; ++k) {
-                    const std::uint32_t patch = leaf_in(*shape_, {middle(x + k % kSide), middle(y), middle(z + k / kSide)}).number;
+                    const std::uint32_t patch = leaf_in(*shape_, {middle(x + k % kSide), middle(y), middle(z + k / kSide)}, axis).number;
                     window[static_cast<std::size_t>(k)] = patch;
                     any = any || patch != shared::kNoPatch;
                 }

@@ -16,7 +16,8 @@ namespace petrichor::gpu {
 class PatchDepths {
 public:
     /// At each of the places (world, m), what of the snow of its patches lies there; nothing is known of the others before find().
-    void find(std::shared_ptr<const PlaceShape> shape, const std::vector<glm::vec3>& places_m);
+    /// normals: of what lies there, unit; none: it faces up. A steep roof has patches of the side that it looks to.
+    void find(std::shared_ptr<const PlaceShape> shape, const std::vector<glm::vec3>& places_m, const std::vector<glm::vec3>& normals = {});
     const std::shared_ptr<const PlaceShape>& shape() const { return shape_; }
 
     /// Of each place; open_m where no patch lies.

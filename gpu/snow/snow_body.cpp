@@ -105,6 +105,22 @@ void SnowBody::list_corners()
     }
 }
 
+// Of the points, of what they lie on.
+std::vector<vec3> SnowBody::base_normals() const
+{
+    std::vector<vec3> normals(base_m_.size(), vec3(0.0f));
+    for (std::size_t k = 0; k + 2 < corners_.size(); k += 3) {
+        const std::uint32_t a = corners_[k], b = corners_[k + 1], c = corners_[k + 2];
+        const vec3 face = glm::cross(base_m_[b] - base_m_[a], base_m_[c] - base_m_[a]);
+        for (const std::uint32_t point : {a, b, c}) normals[point] += face;
+    }
+    for (vec3& n : normals) {
+        const float length = glm::length(n);
+        n = length > 1.0e-12f ? n / length : vec3(0.0f, 1.0f, 0.0f);
+    }
+    return normals;
+}
+
 std::vector<float> SnowBody::depths(const Frame& frame, const FrameTracks& tracks)
 {
     const shared::WeatherMoment& w = frame.weather;
@@ -113,7 +129,7 @@ std::vector<float> SnowBody::depths(const Frame& frame, const FrameTracks& track
     if (placed && patches_.shape() != frame.place->shape) {
         std::vector<vec3> places;
         for (const scene::SnowCaps::Point& point : caps_->points) places.push_back(point.base_m);
-        patches_.find(frame.place->shape, places);
+        patches_.find(frame.place->shape, places, base_normals());
     }
     std::vector<float> depths = placed ? patches_.depths_m(*frame.place, open_m) : std::vector<float>(caps_->points.size(), open_m);
     if (tracks.map() != nullptr) {

@@ -32,6 +32,7 @@ struct SnowCapOptions {
 struct SnowCaps {
     static constexpr std::uint32_t kUncovered = 0xffffffffu;
     static constexpr std::uint32_t kNone = 0xffffffffu;
+    static constexpr float kAnyDepth_m = 1.0e9f;
     /// Depths that `fill_m` is told for; between them and 0 it is linear.
     static constexpr std::size_t kFills = 4;
     static constexpr std::array<float, kFills> kFillDepths_m{0.03f, 0.07f, 0.14f, 0.28f};
@@ -42,7 +43,9 @@ struct SnowCaps {
         float edge_m = 1.0e9f;        ///< to the nearest edge where the snow ends in the open
         float support_m = 1.0e9f;     ///< how wide the ground below is: half a post's width
         glm::vec2 out{0.0f};          ///< towards that edge, world x and z
-        float most_m = 1.0e9f;        ///< of snow that holds here, by the angle of repose from the edges
+        float most_m = kAnyDepth_m;   ///< of snow that holds here, by the angle of repose from the edges ..
+        /// .. and of snow between a depth of `kFillDepths_m` and the next, which lies over steps that it closes as one sheet: from the others alone
+        std::array<float, kFills> sheet_most_m{kAnyDepth_m, kAnyDepth_m, kAnyDepth_m, kAnyDepth_m};
         std::array<float, kFills> fill_m{};  ///< up to the ground as snow of a depth smooths it: without joints, stones, steps
         float wide = 1.0f;            ///< 0 on posts and small things, on which no step is closed .. 1 on ground
         float drop_m = 1.0e9f;        ///< of that edge, or of the one that `most_m` is from: how far below it lies what is beyond
@@ -95,8 +98,9 @@ bool holds_snow_body(const Material& material);
 inline constexpr float kDeepestSnow_m = 0.4f;
 float drawn_snow_m(float depth_m);
 
-/// Share of a step that snow of a depth closes: 1 of steps up to 1.45 of that, 0 from 1.75 of it on: what rounding takes
+/// Share of a step that snow of a depth closes: 1 of steps up to 1.45 of that, 0 from kHighestClosed of it on: what rounding takes
 /// from an edge, (1 - pi / 4) of the depth squared a metre, is enough for a bank of 55 degrees there.
+inline constexpr float kHighestClosed = 1.75f;
 float step_closed(float step_m, float depth_m);
 
 /// The caps under snow.

@@ -9,8 +9,8 @@ namespace petrichor::scene {
 
 float step_closed(float step_m, float depth_m)
 {
-    if (!(step_m < 1.75f * depth_m)) return 0.0f;
-    return 1.0f - shared::smooth_edge(1.45f, 1.75f, step_m / depth_m);
+    if (!(step_m < kHighestClosed * depth_m)) return 0.0f;
+    return 1.0f - shared::smooth_edge(1.45f, kHighestClosed, step_m / depth_m);
 }
 
 namespace {
@@ -70,8 +70,8 @@ float whole_bank(const SnowCaps::Point& p, float depth_m)
     return (1.0f - shared::smooth_edge(0.0f, kSlit_m, bank_low_m(p, depth_m))) * shared::smooth_edge(kThinBank_m, kWholeBank_m, depth_m);
 }
 
-// Deep snow forgets the ground below it.
-float filled_m(const SnowCaps::Point& p, float depth_m)
+// Deep snow forgets the ground below it. sheet_m: what of it holds as one sheet over steps.
+float filled_m(const SnowCaps::Point& p, float depth_m, float sheet_m)
 {
     const auto of = [&](const std::array<float, SnowCaps::kFills>& fills) {
         float from_m = 0.0f, from = 0.0f;
@@ -86,7 +86,7 @@ float filled_m(const SnowCaps::Point& p, float depth_m)
     const float own = of(p.fill_m);
     if (p.bank > 0.0f || !(p.fade > 0.0f)) return own;
     // Where a bank is one sheet with what lies beside it, that is below it.
-    const float one = p.fade * whole_bank(p, depth_m);
+    const float one = p.fade * whole_bank(p, sheet_m);
     // Corners stand out of it with a cap of their own.
     return own + one * (std::max(of(p.bank_fill_m) - kBelowBank_m, -kOverCorner * depth_m) - own);
 }
@@ -99,6 +99,33 @@ float fallen_m(const SnowCaps::Point& p, float depth_m)
     const float inside = p.edge_m < 0.25f ? shared::smooth_edge(0.05f, 0.25f, p.edge_m) : 1.0f;
     const float open = inside < 1.0f ? inside + p.wide * step_closed(p.drop_m, drawn) * (1.0f - inside) : 1.0f;
     return drawn * (p.share + shared::smooth_edge(0.0f, 0.17f, drawn) * open * (p.broad - p.share));
+}
+
+// The lesser of two depths, rounded where they meet.
+float lesser(float a, float b)
+{
+    if (!(a > 0.0f) || !(b > 0.0f)) return 0.0f;
+    const float r = std::min(a, b) / std::max(a, b);
+    return std::min(a, b) / std::sqrt(1.0f + r * r);
+}
+
+// What of it holds where it lies over steps as one sheet: a stair of tiles on a steep roof carries no more than its eaves hold.
+float sheet_m(const SnowCaps::Point& p, float fallen_m)
+{
+    constexpr float kMost_m = 1.0f;  // of depths between which it is linear
+    constexpr float kMeets = 0.3f;   // of the depth
+    const auto& depths = SnowCaps::kFillDepths_m;
+    const auto& most = p.sheet_most_m;
+    if (std::all_of(most.begin(), most.end(), [](float m) { return m >= SnowCaps::kAnyDepth_m; })) return fallen_m;
+    float holds = std::min(most.front(), kMost_m);
+    for (std::size_t k = 1; k < SnowCaps::kFills; ++k) {
+        const float share = std::clamp((fallen_m - depths[k - 1]) / (depths[k] - depths[k - 1]), 0.0f, 1.0f);
+        holds += share * (std::min(most[k], kMost_m) - holds);
+    }
+    // Rounded where they meet, and as it fell where there is room enough.
+    const float width = kMeets * fallen_m;
+    const float meets = std::max(width - std::abs(fallen_m - holds), 0.0f);
+    return width > 0.0f ? std::max(std::min(fallen_m, holds) - 0.25f * meets * meets / width, 0.0f) : 0.0f;
 }
 
 // How far in a cap is rounded off.
@@ -118,14 +145,6 @@ bool in_the_midst(const SnowCaps::Point& p, float held_m)
 {
     return p.edge_m >= std::max(held_m, kNearEdge_m) && p.slot_m >= std::max(held_m, kAtRim_m) && p.low_m >= std::max(held_m, kAtRim_m) &&
            p.beyond == SnowCaps::kNone && !(p.fade > 0.0f) && p.bridge_m == glm::vec2(0.0f);
-}
-
-// The lesser of two depths, rounded where they meet.
-float lesser(float a, float b)
-{
-    if (!(a > 0.0f) || !(b > 0.0f)) return 0.0f;
-    const float r = std::min(a, b) / std::max(a, b);
-    return std::min(a, b) / std::sqrt(1.0f + r * r);
 }
 
 }  // namespace
@@ -167,27 +186,29 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const
         shape.deep_m[i] = deep;
         shape.thickest_m = std::max(shape.thickest_m, thickness);
     };
-    std::vector<float> fallen(count), closing(count), bare(count), top(count);
+    std::vector<float> fallen(count), sheet(count), closing(count), bare(count), top(count);
     std::vector<std::uint32_t> edges;  // points that ask what lies beside them
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
         if (drawn.points[i] != DrawnSnow::kDrawn) shape.positions[i] = p.base_m;
         if (drawn.points[i] == 0) continue;
         fallen[i] = fallen_m(p, depth_m[i]);
+        sheet[i] = sheet_m(p, fallen[i]);
         if (p.bank > 0.0f) {
             if (drawn.points[i] != DrawnSnow::kDrawn) continue;
-            const float over = fallen[i] + filled_m(p, fallen[i]) + bank_m(p, fallen[i]) + corner_m(p, fallen[i]);
-            put(i, p.base_m + vec3(0.0f, over, 0.0f), std::max(std::min(over, fallen[i]), 0.0f), fallen[i]);
+            const float lies = sheet[i];
+            const float over = lies + filled_m(p, lies, lies) + bank_m(p, lies) + corner_m(p, lies);
+            put(i, p.base_m + vec3(0.0f, over, 0.0f), std::max(std::min(over, lies), 0.0f), lies);
             continue;
         }
         // Below a bank the caps close where it does.
-        const float alone = p.wide * step_closed(p.drop_m, fallen[i]);
-        const float closed = closing[i] = p.fade > 0.0f ? glm::mix(alone, whole_bank(p, fallen[i]), p.fade) : alone;
+        const float alone = p.wide * step_closed(p.drop_m, sheet[i]);
+        const float closed = closing[i] = p.fade > 0.0f ? glm::mix(alone, whole_bank(p, sheet[i]), p.fade) : alone;
         const float open = lesser(std::min(fallen[i], kMostOverWidth * p.support_m), p.most_m);
-        const float held = open + closed * (fallen[i] - open);
+        const float held = open + closed * std::max(sheet[i] - open, 0.0f);
         const float round = p.edge_m < held ? rounded(p.edge_m / width_m(p, held)) : 1.0f;
         bare[i] = p.base_m.y + held * (round + closed * (1.0f - round));
-        top[i] = bare[i] + filled_m(p, fallen[i]);
+        top[i] = bare[i] + filled_m(p, fallen[i], sheet[i]);
         if (drawn.points[i] != DrawnSnow::kDrawn) continue;
         if (closed == 0.0f && in_the_midst(p, held)) {
             put(i, p.base_m + vec3(0.0f, held - sunk_m(held) + (top[i] - bare[i]), 0.0f), held, held);
@@ -205,7 +226,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const
         const float foot = p.beyond != SnowCaps::kNone ? bare[p.beyond] - caps.points[p.beyond].base_m.y : 0.0f;
         const float closed = closing[i] > 0.0f ? closing[i] * shared::smooth_edge(0.35f, 0.8f, foot / fallen[i]) : 0.0f;
         const float open = lesser(std::min(fallen[i], kMostOverWidth * p.support_m + over), p.most_m + over);
-        const float held = open + closed * (fallen[i] - open);
+        const float held = open + closed * std::max(sheet[i] - open, 0.0f);
         const bool rim = p.edge_m < kAtRim_m;
         const float width = width_m(p, held);
         const float s = p.edge_m / width;

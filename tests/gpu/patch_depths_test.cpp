@@ -20,6 +20,16 @@ constexpr int kCells = 24;
 // Level ground of squares that rises by half a cell on its way along x.
 float ground_m(float x) { return 0.02f * x; }
 
+std::uint32_t& patch_in(PlaceShape& shape, const glm::ivec3& cell, int axis)
+{
+    const shared::PatchKey key = shared::patch_key(cell, axis, 0);
+    std::uint32_t slot = shared::patch_key_hash(key) & shape.grid.table_mask;
+    while (shape.table[slot].z != shared::kNoPatch && (shape.table[slot].x != key.low || shape.table[slot].y != key.high))
+        slot = (slot + 1) & shape.grid.table_mask;
+    if (shape.table[slot].z == shared::kNoPatch) shape.table[slot] = glm::uvec4(key.low, key.high, shared::kNoPatch, 0);
+    return shape.table[slot].z;
+}
+
 std::shared_ptr<PlaceShape> squares()
 {
     auto shape = std::make_shared<PlaceShape>();
@@ -33,11 +43,8 @@ std::shared_ptr<PlaceShape> squares()
     for (int i = 0; i < kFine * kCells * kCells; ++i) {
         const vec3 at(kCell_m / kFine * static_cast<float>(i % (kFine * kCells)), 0.0f, kCell_m * static_cast<float>(i / (kFine * kCells)));
         const glm::ivec3 cell = shared::patch_cell(at + vec3(0.0f, ground_m(at.x) + 0.06f * kCell_m, 0.0f), 1.0f / kCell_m);
-        const shared::PatchKey key = shared::patch_key(cell, 2, 0);
-        std::uint32_t slot = shared::patch_key_hash(key) & shape->grid.table_mask;
-        while (shape->table[slot].z != shared::kNoPatch && (shape->table[slot].x != key.low || shape->table[slot].y != key.high))
-            slot = (slot + 1) & shape->grid.table_mask;
-        if (shape->table[slot].z == shared::kNoPatch) shape->table[slot] = glm::uvec4(key.low, key.high, number++, 0);
+        std::uint32_t& patch = patch_in(*shape, cell, 2);
+        if (patch == shared::kNoPatch) patch = number++;
     }
     return shape;
 }
@@ -74,6 +81,26 @@ TEST(PatchDepths, KnowNoBordersOfPatches)
     EXPECT_GT(range_m, 0.002f) << "patches do differ";
     EXPECT_LT(step_m, 1.5e-4f) << "a step of 15 % at most";
     EXPECT_LT(bend_m, 1.0e-4f) << "no crease within a centimetre";
+}
+
+// A roof of 53 degrees has patches that look to its side, which know what has slid from it; what has none at all is open ground.
+TEST(PatchDepths, OfASteepRoofAreThoseOfItsOwnSide)
+{
+    const auto shape = squares();
+    const vec3 side(0.8f, 0.6f, 0.0f), place(5.0f, 6.0f, 5.0f);
+    PatchDepths depths;
+    depths.find(shape, {place}, {side});
+    EXPECT_EQ(depths.depths_m(weather_of(shape, 0.0f), 0.7f)[0], 0.7f);
+    const glm::ivec3 cell = shared::patch_cell(place + 0.06f * kCell_m * side, 1.0f / kCell_m);
+    const std::uint32_t roof = patch_in(*shape, cell, 0) = shape->grid.patches - 1;
+    const auto with_roof = std::make_shared<PlaceShape>(*shape);
+    depths.find(with_roof, {place, place, {5.0f, ground_m(5.0f), 5.0f}}, {side, vec3(0, 1, 0), vec3(0.3f, 0.95f, 0.0f)});
+    PlaceWeather weather = weather_of(shape, 0.0f);
+    weather.states[std::size_t{roof} * PLACE_STATE_TEXELS + 2].z = 0.02f;
+    const std::vector<float> found = depths.depths_m(weather, 0.7f);
+    EXPECT_NEAR(found[0], 0.02f, 1.0e-5f);
+    EXPECT_EQ(found[1], 0.7f) << "what faces up has no patch there";
+    EXPECT_NEAR(found[2], 0.1f, 1.0e-5f);
 }
 
 TEST(PatchDepths, AreThoseOfTheOpenBeyondThem)

@@ -211,6 +211,43 @@ TEST(SnowShape, RoundThingsCarryAllOfItOnTheirCrown)
     EXPECT_LT(side, 0.5f * crown + 0.012f);
 }
 
+// A gable of steps, steeper than snow lies at repose: deep snow closes each of them, and all of them carry no more than the eaves hold.
+TEST(SnowShape, AStairSteeperThanReposeCarriesNoWall)
+{
+    Scene scene = empty_scene();
+    add_ground(scene);
+    constexpr int kSteps = 5;
+    constexpr float kRise = 0.1f, kTread = 0.07f, kEaves = 1.2f;
+    for (int k = 0; k < kSteps; ++k) {
+        const float half = kTread * static_cast<float>(kSteps - k), up = kEaves + kRise * static_cast<float>(k);
+        const float in = k + 1 < kSteps ? kTread : half;
+        for (int piece = 0; piece < 20; ++piece) {
+            for (const float side : {-1.0f, 1.0f}) {
+                const vec3 along(0, 0, -0.06f * side);
+                const float z = side * (0.6f - 0.06f * static_cast<float>(piece));
+                add_face(scene, {side * half, up, z}, along, {-side * in, 0, 0});
+                add_face(scene, {side * half, up - kRise, z}, along, {0, kRise, 0});
+            }
+        }
+    }
+    SnowCapOptions options;
+    options.eyes_m = {{1.5f, 2.2f, 1.5f}};
+    const SnowCaps caps = caps_of(scene, options);
+    for (const float depth : {0.07f, 0.14f, 0.35f}) {
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), depth));
+        float ground = 0.0f, stair = 0.0f, highest = 0.0f;
+        for (std::size_t i = 0; i < caps.points.size(); ++i) {
+            float& most = caps.points[i].base_m.y < 0.5f ? ground : stair;
+            most = std::max(most, shape.thickness_m[i]);
+            if (caps.points[i].base_m.y > 0.5f) highest = std::max(highest, shape.positions[i].y);
+        }
+        EXPECT_GT(ground, 0.6f * depth);
+        EXPECT_GT(stair, 0.012f) << "it is not bare";
+        EXPECT_LT(stair, 0.06f) << depth;
+        EXPECT_LT(highest, kEaves + kRise * (kSteps - 1) + 0.06f) << depth;
+    }
+}
+
 // The rim of a cap is within what it lies on: along its faces it would be drawn by halves.
 TEST(SnowShape, ARimEndsWithinTheStone)
 {

@@ -77,6 +77,45 @@ std::vector<float> from_edges(const OneGround& ground, const Sheet& sheet, const
     return away;
 }
 
+// What holds of snow over steps, as the points of the caps near a place know it: banks lie over them and have no edges.
+class SheetHold {
+public:
+    explicit SheetHold(const SnowCaps& caps) : caps_(&caps)
+    {
+        for (std::uint32_t i = 0; i < caps.points.size(); ++i) {
+            const SnowCaps::Point& point = caps.points[i];
+            const auto limited = [](float most_m) { return most_m < SnowCaps::kAnyDepth_m; };
+            if (std::any_of(point.sheet_most_m.begin(), point.sheet_most_m.end(), limited)) cells_[cell_of(point.base_m)].push_back(i);
+        }
+    }
+    std::array<float, SnowCaps::kFills> at(const vec3& place) const
+    {
+        std::array<float, SnowCaps::kFills> most = SnowCaps::Point{}.sheet_most_m;
+        float best = kNear_m;
+        const auto [x, z] = cell_of(place);
+        for (int k = 0; k < 9; ++k) {
+            const auto cell = cells_.find({x + k % 3 - 1, z + k / 3 - 1});
+            if (cell == cells_.end()) continue;
+            for (const std::uint32_t i : cell->second) {
+                const float apart = glm::distance(caps_->points[i].base_m, place);
+                if (!(apart < best)) continue;
+                best = apart;
+                most = caps_->points[i].sheet_most_m;
+            }
+        }
+        return most;
+    }
+
+private:
+    static constexpr float kNear_m = 0.35f;
+    static std::pair<int, int> cell_of(const vec3& place)
+    {
+        return {static_cast<int>(std::floor(place.x / kNear_m)), static_cast<int>(std::floor(place.z / kNear_m))};
+    }
+    const SnowCaps* caps_;
+    std::map<std::pair<int, int>, std::vector<std::uint32_t>> cells_;
+};
+
 // What the surface of a triangle carries at a place, also a little outside of it.
 struct Carried {
     vec2 uv0, uv1;
@@ -129,6 +168,7 @@ std::vector<BankPart> lay_banks(SnowCaps& caps, const CutMesh& mesh, const Sheet
         }
     }
     const std::vector<float> from_edge = from_edges(ground, sheet, open);
+    const SheetHold hold(caps);
     const auto place = [&](int x, int z) { return sheet.place(x, z); };
     const auto eye_m = [&](const vec3& p) {
         float nearest = options.eyes_m.empty() ? 0.0f : 1.0e30f;
@@ -177,6 +217,7 @@ std::vector<BankPart> lay_banks(SnowCaps& caps, const CutMesh& mesh, const Sheet
             point.uneven = uneven_at(point.base_m, cell_m * static_cast<float>(stride));
             const std::size_t cell = ground.index(x, z);
             point.bank = 1.0f;
+            point.sheet_most_m = hold.at(point.base_m);
             point.bank_m = std::max(step[cell], 1.0e-3f);
             point.corner = 1.0f - shared::smooth_edge(0.0f, kCorner_m, away[cell]);
             float fade = shared::smooth_edge(kReach_m - kFade_m, kReach_m - 0.5f * cell_m, away[cell]);

@@ -101,11 +101,72 @@ std::vector<Joint> joints_of(const SnowCaps& caps)
     return joints;
 }
 
+namespace {
+
+// Up to where snow holds over each point, from its edges upwards.
+struct Held {
+    std::vector<float> top_m, upright_m;
+    std::vector<std::uint32_t> edge;  // that it is held from
+
+    float most_m(const SnowCaps& caps, std::size_t i) const
+    {
+        return top_m[i] >= 1.0e29f ? SnowCaps::kAnyDepth_m
+                                   : upright_m[i] + kRounded * std::max(top_m[i] - caps.points[i].base_m.y, 0.0f);
+    }
+};
+
+using Beside = std::vector<std::vector<std::pair<std::uint32_t, float>>>;
+
+// From the lowest edge upwards (Dijkstra 1959), ties by number. Edges of steps up to closed_m hold nothing by themselves: snow
+// lies over them as one sheet, and is held by what lies below them.
+Held held_from_edges(const SnowCaps& caps, const std::vector<vec3>& normals, const Beside& beside, float closed_m)
+{
+    const std::size_t count = caps.points.size();
+    Held held{std::vector<float>(count, 1.0e30f), std::vector<float>(count, 0.0f), std::vector<std::uint32_t>(count, SnowCaps::kNone)};
+    std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, float>>> over_steps;
+    Queue queue;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const SnowCaps::Point& point = caps.points[i];
+        if (point.edge_m > kAtBorder_m) continue;
+        if (point.drop_m < closed_m) {
+            if (point.beyond == SnowCaps::kNone) continue;
+            const vec3 way = caps.points[point.beyond].base_m - point.base_m;
+            // Across the edge: its points and those below it need not stand beside each other.
+            over_steps[point.beyond].emplace_back(i, kRepose * std::abs(glm::dot(vec2(way.x, way.z), point.out)));
+            continue;
+        }
+        const float level = shared::smooth_edge(0.77f, 0.95f, normals[i].y);
+        held.top_m[i] = point.base_m.y;
+        held.upright_m[i] = kSticks_m + level * kShoulder * point.support_m;
+        held.edge[i] = i;
+        queue.emplace(held.top_m[i], i);
+    }
+    while (!queue.empty()) {
+        const auto [height, i] = queue.top();
+        queue.pop();
+        if (height > held.top_m[i]) continue;
+        const auto reach = [&, from = i, up = height](std::uint32_t other, float rise) {
+            const float there = up + rise;
+            if (there - caps.points[other].base_m.y > kDeepestSnow_m + 1.0f || there >= held.top_m[other]) return;
+            held.top_m[other] = there;
+            held.upright_m[other] = held.upright_m[from];
+            held.edge[other] = held.edge[from];
+            queue.emplace(there, other);
+        };
+        for (const auto& [other, rise] : beside[i]) reach(other, rise);
+        if (const auto above = over_steps.find(i); above != over_steps.end())
+            for (const auto& [other, rise] : above->second) reach(other, rise);
+    }
+    return held;
+}
+
+}  // namespace
+
 void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals,
                     const std::vector<Joint>& joints)
 {
     const std::size_t count = caps.points.size();
-    std::vector<std::vector<std::pair<std::uint32_t, float>>> beside(count);
+    Beside beside(count);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& p = mesh.primitives[i];
         for (std::size_t k = 0; k < p.indices.size(); ++k) {
@@ -118,41 +179,21 @@ void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>
         }
     }
     for (const Joint& joint : joints) beside[joint.here].emplace_back(joint.beyond, kRepose * joint.apart_m);
-    // How high the snow may reach: from the lowest edge upwards (Dijkstra 1959), ties by number.
-    std::vector<float> top(count, 1.0e30f), upright(count, 0.0f);
-    std::vector<std::uint32_t> edge(count, SnowCaps::kNone);
-    Queue queue;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const SnowCaps::Point& point = caps.points[i];
-        if (point.edge_m > kAtBorder_m) continue;
-        const float level = shared::smooth_edge(0.77f, 0.95f, normals[i].y);
-        top[i] = point.base_m.y;
-        upright[i] = kSticks_m + level * kShoulder * point.support_m;
-        edge[i] = i;
-        queue.emplace(top[i], i);
+    for (std::size_t k = 0; k < SnowCaps::kFills; ++k) {
+        // Told of the next depth too: no step that closes between the two is an edge.
+        const float closed_m = k + 1 < SnowCaps::kFills ? kHighestClosed * SnowCaps::kFillDepths_m[k + 1] : kDeepDrop_m;
+        const Held sheet = held_from_edges(caps, normals, beside, closed_m);
+        for (std::size_t i = 0; i < count; ++i) caps.points[i].sheet_most_m[k] = sheet.most_m(caps, i);
     }
-    while (!queue.empty()) {
-        const auto [height, i] = queue.top();
-        queue.pop();
-        if (height > top[i]) continue;
-        for (const auto& [other, rise] : beside[i]) {
-            const float there = height + rise;
-            if (there - caps.points[other].base_m.y > kDeepestSnow_m + 1.0f || there >= top[other]) continue;
-            top[other] = there;
-            upright[other] = upright[i];
-            edge[other] = edge[i];
-            queue.emplace(there, other);
-        }
-    }
+    const Held held = held_from_edges(caps, normals, beside, 0.0f);
     for (std::size_t i = 0; i < count; ++i) {
-        if (top[i] >= 1.0e29f) continue;
-        const float room = std::max(top[i] - caps.points[i].base_m.y, 0.0f);
+        if (held.edge[i] == SnowCaps::kNone) continue;
         SnowCaps::Point& point = caps.points[i];
-        point.most_m = upright[i] + kRounded * room;
-        // Where deep snow closes the step at that edge, nothing holds it.
+        point.most_m = held.most_m(caps, i);
+        // Where deep snow closes the step at that edge, what lies below holds it.
         if (point.edge_m > kNowhere_m) {
-            point.drop_m = caps.points[edge[i]].drop_m;
-            point.beyond = caps.points[edge[i]].beyond;
+            point.drop_m = caps.points[held.edge[i]].drop_m;
+            point.beyond = caps.points[held.edge[i]].beyond;
         }
     }
 }
