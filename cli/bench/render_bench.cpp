@@ -86,6 +86,7 @@ gpu::Frame bench_frame(const scene::Scene& scene, const RenderBenchOptions& opti
         has_sun = has_sun || light.kind == scene::LightKind::Directional;
     }
     frame.sky.analytic_sun = !has_sun;
+    frame.look.ground_variation = 0.0f;  // of no file: five octaves of noise at each pixel of wide ground
     gpu::FrameSettings& settings = frame.settings;
     settings.width = size.width;
     settings.height = size.height;

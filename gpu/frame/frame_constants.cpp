@@ -171,6 +171,7 @@ VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weath
 {
     const shared::WeatherMoment& w = frame.weather;
     VisibleWeather visible;
+    visible.ground_varies = frame.look.ground_variation > 0.0f;
     visible.snow = scene_has_constant_weather || w.snow_amount > 0.0f;
     visible.frost = w.frost > 0.0f;
     visible.water = scene_has_constant_weather || w.flood_cracks > 0.0f || w.flood_puddles > 0.0f;

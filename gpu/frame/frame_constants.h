@@ -14,6 +14,7 @@ struct VisibleWeather {
     bool snow = false;
     bool frost = false;
     bool place = false;  ///< pixels find it in their patches
+    bool ground_varies = true;  ///< wide ground does, from place to place
     std::uint32_t falls = 0;  ///< directions that it falls along (FrameConstants::falls)
 };
 

@@ -114,30 +114,16 @@ bool alike(const Draw& a, const Draw& b)
 
 }  // namespace
 
-std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
-                                       const glm::vec3& camera_m, Draws which)
-{
-    std::vector<std::tuple<bool, float, const Draw*>> keyed;
-    for (const Draw* draw : seen_draws(scene, world_to_clip, which)) {
-        const float nearest = glm::length(draw->centre_m - camera_m) - draw->radius_m;
-        keyed.emplace_back(has_holes(scene, *draw), nearest, draw);
-    }
-    std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) {
-        return std::make_pair(std::get<0>(a), std::get<1>(a)) <
-               std::make_pair(std::get<0>(b), std::get<1>(b));
-    });
-    std::vector<const Draw*> draws;
-    for (const auto& entry : keyed) draws.push_back(std::get<2>(entry));
-    return draws;
-}
-
 std::vector<DrawRun> visible_runs(const GpuScene& scene, const glm::mat4& world_to_clip,
                                   const glm::vec3& camera_m, Draws which)
 {
     const std::vector<const Draw*> seen = seen_draws(scene, world_to_clip, which);
     std::vector<std::tuple<bool, float, DrawRun>> keyed;
+    // What goes round the eye, ground or a room, is as far as it is wide: it stands behind most of what is in it, and would
+    // be shaded all over to be covered.
     const auto nearest_m = [&](const Draw& draw) {
-        return glm::length(draw.centre_m - camera_m) - draw.radius_m;
+        const float nearest = glm::length(draw.centre_m - camera_m) - draw.radius_m;
+        return nearest < 0.0f ? draw.radius_m : nearest;
     };
     for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
         const bool holes = has_holes(scene, *seen[begin]);

@@ -22,11 +22,6 @@ bool has_holes(const GpuScene& scene, const Draw& draw);
 /// Which draws a pass wants.
 enum class Draws { All, Solid, LetLightThrough };
 
-/// Draws inside the view: opaque ones first and near to far, so that early depth tests save
-/// shading.
-std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
-                                       const glm::vec3& camera_m, Draws which = Draws::All);
-
 /// Draws of one shape and material that stand one after the other in the scene's list: one draw call, whose
 /// instances begin with the number of the first.
 struct DrawRun {
@@ -36,7 +31,8 @@ struct DrawRun {
 /// Fewer are drawn one by one, near to far.
 inline constexpr std::uint32_t kLeastRun = 8;
 
-/// As visible_draws; alike ones that are seen side by side are one run, as near as the nearest of them.
+/// Draws inside the view: opaque ones first and near to far, so that early depth tests save shading; what goes round the
+/// eye among the far ones. Alike ones that are seen side by side are one run, as near as the nearest of them.
 std::vector<DrawRun> visible_runs(const GpuScene& scene, const glm::mat4& world_to_clip,
                                   const glm::vec3& camera_m, Draws which = Draws::All);
 

@@ -6,7 +6,7 @@
 
 #include "gpu/passes/lighting/light_rows.glsl"
 
-// Asking costs about what two lights do: it pays where there are many.
+// Asking costs about what one light does: it pays where there are many.
 const bool SIFTED = (WAYS & (LIGHTS_TOGETHER | LIGHTS_MANY)) == (LIGHTS_TOGETHER | LIGHTS_MANY) && LISTED != 1u;
 
 // Told out: a loop costs more than what is in it.
@@ -61,10 +61,9 @@ float most_toward(LitGroup group, vec3 low, vec3 high)
 const bool FROM_BEHIND = (LAYERS & (LAYERS_TRANSLUCENT | LAYERS_SKIN | LAYERS_TRANSMISSION | LAYERS_SECOND_LOBE)) != 0u;
 
 // shadowed, shaped: as of punctual_light.
-bool may_light(LitGroup group, int light, const bool shadowed, const bool shaped)
+bool may_light(LitGroup group, LightRow light, const bool shadowed, const bool shaped)
 {
-    const int first = light * LIGHT_TEXELS;
-    const vec4 sphere = texelFetch(lights, first);
+    const vec4 sphere = light.sphere;
     const vec3 low = sphere.xyz - group.high;
     const vec3 high = sphere.xyz - group.low;
     const vec3 gap = max(max(low, -high), vec3(0.0));
@@ -72,27 +71,13 @@ bool may_light(LitGroup group, int light, const bool shadowed, const bool shaped
     if (FROM_BEHIND || (shaped && (WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u)) return may;
     // The product that decides is rounded, of a unit vector.
     float most = -1.0e-5 * sphere.w;
-    if (shaped && RECTANGLES != 0u && (!shadowed || texelFetch(lights, first + 1).w < LIGHT_POINT - 0.5)) {
+    if (shaped && RECTANGLES != 0u && (!shadowed || light.color.w < LIGHT_POINT - 0.5)) {
         // Its form factor is cut by the horizon as that of a ball (formulas/light/area.h), which is as wide as
         // both half edges at most.
-        const float wide = length(texelFetch(lights, first + 2).xyz) + length(texelFetch(lights, first + 3).xyz);
+        const float wide = length(light.axis.xyz) + length(light.across.xyz);
         most = -2.5 * wide - 1.0e-3 * sphere.w;
     }
     return may && most_toward(group, low, high) > most;
-}
-
-// Of 32 lights from `low` on, those that may light the group.
-uint lights_of_group(LitGroup group, uint low, uint bits, const bool shadowed, const bool shaped)
-{
-    uint kept = 0u;
-    for (uint rest = bits; rest != 0u;) {
-        const uint own = without_lowest(rest, gl_SubgroupInvocationID);
-        const int bit = max(findLSB(own), 0);
-        if (own != 0u && may_light(group, int(low) + bit, shadowed, shaped)) kept |= 1u << bit;
-        rest = without_lowest(rest, LIGHTS_AT_ONCE - 1u);
-        rest &= rest - 1u;
-    }
-    return group_or(kept);
 }
 
 #endif

@@ -124,6 +124,47 @@ uint low_bits(uint count)
     return count < 32u ? (1u << count) - 1u : ~0u;
 }
 
+// The i-th word of a tile's list: its number and those bits that are of a range; beyond the last none.
+uvec2 listed_word(int list, int words, int i, uint first, uint end)
+{
+    uvec2 word = texelFetch(light_lists, list + min(i, max(words, 1))).rg;
+    const uint low = word.r * 32u;
+    if (!ONE_RANGE) word.g &= low_bits(max(end, low) - low) & ~low_bits(max(first, low) - low);
+    return i <= words ? word : uvec2(0u);
+}
+
+// Adds those of a range of the table that reach this tile, in their order: eight at a time from two words of the list, of
+// which each invocation reads one and asks whether it may light any of the group.
+void add_range_together(inout vec3 radiance, LitPoint p, LitGroup group, ivec2 texel, int list, uint first, uint end,
+                        const bool shadowed, const bool shaped)
+{
+    const int words = int(texelFetch(light_lists, list).r);
+    const uint lane = gl_SubgroupInvocationID;
+    uvec2 here = listed_word(list, words, 1, first, end);
+    uvec2 next = ONE_WORD ? uvec2(0u) : listed_word(list, words, 2, first, end);
+    for (int i = 3; (here.g | next.g) != 0u || (!ONE_WORD && !ONE_RANGE && i <= words); ++i) {
+        const uint count = ONE_WORD ? LIGHTS_AT_ONCE : uint(bitCount(here.g));
+        const bool of_next = lane >= count;
+        const uvec2 mine = of_next ? next : here;
+        const uint own = without_lowest(mine.g, of_next ? lane - count : lane);
+        const int number = int(mine.r * 32u) + max(findLSB(own), 0);
+        const LightRow row = light_row(number);
+        bool may = own != 0u;
+        if (SIFTED) may = may && may_light(group, row, shadowed, shaped);
+        // Those that are left of the two.
+        const bool spare = count >= LIGHTS_AT_ONCE;
+        const uvec2 last = spare ? here : next;
+        here = uvec2(last.r, without_lowest(last.g, spare ? LIGHTS_AT_ONCE : LIGHTS_AT_ONCE - count));
+        if (!ONE_WORD) {
+            const uvec2 later = listed_word(list, words, i, first, end);
+            next = spare ? next : later;
+            i -= spare ? 1 : 0;
+        }
+        for (uint rest = group_or(may ? 1u << lane : 0u); rest != 0u; rest &= rest - 1u)
+            radiance += punctual_light(p, row_of_lane(row, uint(findLSB(rest))), texel, shadowed, shaped);
+    }
+}
+
 // Adds those of a range of the table that reach this tile, in their order.
 void add_range(inout vec3 radiance, LitPoint p, LitGroup group, ivec2 texel, uint first, uint end, const bool shadowed,
                const bool shaped)
@@ -134,28 +175,15 @@ void add_range(inout vec3 radiance, LitPoint p, LitGroup group, ivec2 texel, uin
     }
     const ivec2 tile = texel / LIGHT_TILE;
     const int list = (tile.y * frame.light_tiles.x + tile.x) * int(frame.light_words + 1u);
+    if (TOGETHER) {
+        add_range_together(radiance, p, group, texel, list, first, end, shadowed, shaped);
+        return;
+    }
     const int words = int(texelFetch(light_lists, list).r);
-    // A loop in a loop costs a CPU more than what is in it.
-    for (int i = 1; i <= (ONE_WORD ? 1 : words); ++i) {
-        uvec2 word = texelFetch(light_lists, list + i).rg;
-        if (ONE_WORD) word = words > 0 ? word : uvec2(0u);
-        const uint low = word.r * 32u;
-        const uint own = ONE_RANGE ? ~0u : low_bits(max(end, low) - low) & ~low_bits(max(first, low) - low);
-        uint bits = word.g & own;
-        if (TOGETHER) {
-            if (SIFTED) bits = lights_of_group(group, low, bits, shadowed, shaped);
-            while (bits != 0u) {
-                const LightRow mine = light_row(int(low) + max(findLSB(without_lowest(bits, gl_SubgroupInvocationID)), 0));
-                for (uint lane = 0u; lane < LIGHTS_AT_ONCE && bits != 0u; ++lane) {
-                    radiance += punctual_light(p, row_of_lane(mine, lane), texel, shadowed, shaped);
-                    bits &= bits - 1u;
-                }
-            }
-        } else {
-            for (; bits != 0u; bits &= bits - 1u) {
-                radiance += punctual_light(p, light_row(int(low) + findLSB(bits)), texel, shadowed, shaped);
-            }
-        }
+    for (int i = 1; i <= words; ++i) {
+        const uvec2 word = listed_word(list, words, i, first, end);
+        for (uint bits = word.g; bits != 0u; bits &= bits - 1u)
+            radiance += punctual_light(p, light_row(int(word.r * 32u) + findLSB(bits)), texel, shadowed, shaped);
     }
 }
 

@@ -22,10 +22,10 @@ LightRow row_of_lane(LightRow mine, uint lane)
     return row;
 }
 
-// Bits but for so many of the lowest that are set; fewer than LIGHTS_AT_ONCE.
+// Bits but for so many of the lowest that are set; LIGHTS_AT_ONCE at most.
 uint without_lowest(uint bits, uint count)
 {
-    for (uint i = 0u; i < LIGHTS_AT_ONCE - 1u; ++i) bits = i < count ? bits & (bits - 1u) : bits;
+    for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) bits = i < count ? bits & (bits - 1u) : bits;
     return bits;
 }
 

@@ -127,8 +127,8 @@ LightCrowd largest_light_crowd(std::span<const glm::vec4> balls, int ranges,
     LightCrowd crowd;
     for (int y = 0; y < tiles_y; ++y) {
         for (int x = 0; x < tiles_x; ++x) {
-            // light_loops.glsl, where invocations read lights for each other: of b lights in a word b for themselves
-            // and an eighth, rounded up, for each of three loops over eights; and each loop once more to end, in every range.
+            // light_loops.glsl, where invocations read lights for each other, at most: of b lights in a word b for
+            // themselves and a turn for each eight, which ends a loop over them, and each word once more in every range.
             const auto here = static_cast<std::size_t>(lights.at(x, y));
             const std::size_t turns = here + (3 * here + 7) / 8 +
                                       static_cast<std::size_t>(words.at(x, y)) * (3 * static_cast<std::size_t>(ranges) + 3);

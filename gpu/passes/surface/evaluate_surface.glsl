@@ -23,6 +23,9 @@
 #include "gpu/passes/surface/own_surfaces.glsl"
 #endif
 
+// Its colour and relief vary over the land.
+const bool VARIED_GROUND = (BESIDES & BESIDES_WIDE_GROUND) != 0u && GROUND_VARIES != 0u;
+
 // Curvature of the geometry inside a pixel widens the lobe (Tokuyoshi and Kaplanyan 2019).
 float widened_by_curvature(float roughness, SurfaceInput at)
 {
@@ -106,7 +109,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
             base = detail_color(base, other, detail_share(at));
         }
     }
-    if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
+    if (VARIED_GROUND) {
         const vec2 dx = at.position_dx.xz;
         const vec2 dy = at.position_dy.xz;
         base *= ground_tone(at.position.xz, sqrt(max(dot(dx, dx), dot(dy, dy))), frame.look.ground_variation);
@@ -161,7 +164,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
         normal = normalize(to_world(f, again ? mapped_normal(at, f, shift) : mapped));
     }
     // A loop that ends at once where ground is level: a CPU takes both sides of a branch.
-    const float land = (BESIDES & BESIDES_WIDE_GROUND) != 0u ? frame.look.ground_variation * land_relief_share(at.normal.y) : 0.0;
+    const float land = VARIED_GROUND ? frame.look.ground_variation * land_relief_share(at.normal.y) : 0.0;
     for (int once = 0; once < (land > 0.0 ? 1 : 0); ++once) bend_over_land(normal, cover.normal, at, land);
     shed_film(cover, normal);
     data.emission = vec3(0.0);

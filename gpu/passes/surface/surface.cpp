@@ -150,6 +150,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_LAYER_ROLES_B, scene.materials()[draw->material].layer_roles[1]},
                         {SURFACE_SPEC_LAYER_ROLES_C, scene.materials()[draw->material].layer_roles[2]},
                         {SURFACE_SPEC_BESIDES, scene.materials()[draw->material].besides},
+                        {SURFACE_SPEC_GROUND_VARIES, weather.ground_varies},
                         {SURFACE_SPEC_FADE, draw->fade != 0},
                         {SURFACE_SPEC_VERTEX_LIGHT, scene.vertex_lamps()},
                         {SURFACE_SPEC_PLACE, weather.place}};

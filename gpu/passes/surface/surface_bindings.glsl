@@ -20,6 +20,7 @@ layout(constant_id = SURFACE_SPEC_LAYER_ROLES_A) const uint LAYER_ROLES_A = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_B) const uint LAYER_ROLES_B = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_C) const uint LAYER_ROLES_C = 0u;
 layout(constant_id = SURFACE_SPEC_BESIDES) const uint BESIDES = 0u;
+layout(constant_id = SURFACE_SPEC_GROUND_VARIES) const uint GROUND_VARIES = 1u;
 layout(constant_id = SURFACE_SPEC_FALLS) const int FALLS = 1;
 layout(constant_id = SURFACE_SPEC_VERTEX_LIGHT) const uint VERTEX_LIGHT = 0u;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;

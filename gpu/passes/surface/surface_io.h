@@ -18,6 +18,7 @@
 #define SURFACE_SPEC_LAYER_ROLES_B 31
 #define SURFACE_SPEC_LAYER_ROLES_C 33
 #define SURFACE_SPEC_BESIDES 32  // BESIDES_... of the material
+#define SURFACE_SPEC_GROUND_VARIES 42  // 0: [look] ground_variation is off in this frame
 #define SURFACE_SPEC_FALLS 34  // directions that rain and snow come from, some of no share
 #define SURFACE_SPEC_VERTEX_LIGHT 39  // 1: lamps of the scene light by vertex (passes/vertex_light)
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie

@@ -222,6 +222,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_LAYER_ROLES_B, material.layer_roles[1]},
             {SURFACE_SPEC_LAYER_ROLES_C, material.layer_roles[2]},
             {SURFACE_SPEC_BESIDES, material.besides | shares},
+            {SURFACE_SPEC_GROUND_VARIES, weather.ground_varies},
             {SURFACE_SPEC_PLACE, weather.place},
             {SURFACE_SPEC_VERTEX_LIGHT, by_vertex},
             {FRAME_SPEC_LANES, lanes},
