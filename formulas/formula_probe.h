@@ -61,6 +61,7 @@
 #include "formulas/weather/drop_births.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/snow_body.h"
+#include "formulas/weather/snow_in_turf.h"
 #include "formulas/weather/snow_glints.h"
 #include "formulas/weather/run_off.h"
 #include "formulas/weather/soaked_walls.h"
@@ -70,7 +71,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 80;
+SHARED_CONST int kProbeKinds = 81;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -644,7 +645,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 70) {
         const vec3 low = normalize(vec3(2.0f * a.x - 1.0f, 0.8f * a.y, 2.0f * a.z - 1.0f));
         const vec2 rains = rain_curtains(low, 400.0f * vec2(b.x, b.y), 2.0f * vec2(c.x, c.y) - splat2(1.0f), b.z);
-        return vec4(rains.x, 1.0f + rains.y, 1.0f + curtain_cell(20.0f * vec2(a.x, c.z), a.w, 350u), fog_before_clouds(b.w, c.w));
+        return vec4(rains.x, 1.0f + rains.y, 1.0f + curtain_cell(20.0f * vec2(a.x, c.z), a.w, 1.0f + 6.0f * c.y, 350u), fog_before_clouds(b.w, c.w));
     }
     if (kind == 71) {
         const RunOff off = run_off(40.0f * a.x - 20.0f, 12.0f * a.y - 2.0f, 30.0f * a.z, 0.04f * a.w * a.w);
@@ -694,6 +695,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const RingBirth birth = ring_birth(cell, layer, 20.0f * a.w, 0.5f + b.x);
         return vec4(birth.place.x, birth.place.y, 1.0f + birth.turn + birth.age,
                     ring_chance(cell, layer, floor(40.0f * b.y), uint(1000.0f * b.z)) + ring_births_per_m2_s(layer, 0.5f + b.w, c.x));
+    }
+    if (kind == 80) {
+        const SnowCover thin = with_snow_in_turf(snow_cover(a.x, 1.0f, a.y, 0.75f, 1.0f, a.z, a.w, b.x, 0.0f),
+                                                 snow_in_turf(b.y * turf_holds(b.z), b.w, 4.0f * c.x - 2.0f));
+        const GroundGrowth growth = ground_growth(200.0f * vec2(c.y, c.z), 30.0f * c.w * c.w);
+        return vec4(thin.snow, thin.melt, 2.0f + growth.moist, 2.0f + growth.other);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

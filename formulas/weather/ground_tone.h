@@ -20,9 +20,16 @@ SHARED_FN float ground_octave(vec2 at_m, float cell_m, uint seed, float width_m)
     return (endless_noise(at_m / cell_m, seed) - 0.5f) * sqrt(1.0f - variance_lost(width_m, 0.6f * cell_m));
 }
 
-// -1 dry and thin .. 1 moist and thick; its mean is 0, its deviation 0.2. Lattices of the octaves are turned against
-// each other, and the wide ones bent by the finer, so that no direction shows. width_m: of the pixel on the ground.
-SHARED_FN float ground_moisture(vec2 xz, float width_m)
+// What grows on wide ground, from place to place. Each is 0 in the mean; their deviation is 0.24, and the one
+// tells nothing of the other.
+struct GroundGrowth {
+    float moist;  // -1 dry and thin .. 1 moist and thick
+    float other;  // -1 of one kind of plants .. 1 of another: the grass of a field is mown here and in seed there
+};
+
+// Lattices of the octaves are turned against each other, and the wide ones bent by the finer, so that no direction shows. Both are
+// sums of the same octaves. width_m: of the pixel on the ground.
+SHARED_FN GroundGrowth ground_growth(vec2 xz, float width_m)
 {
     const vec2 turned = vec2(0.83f * xz.x - 0.56f * xz.y, 0.56f * xz.x + 0.83f * xz.y);
     const vec2 other = vec2(0.36f * xz.x + 0.93f * xz.y, 0.36f * xz.y - 0.93f * xz.x);
@@ -32,15 +39,20 @@ SHARED_FN float ground_moisture(vec2 xz, float width_m)
     const float wide = ground_octave(bent + 17.0f, 88.0f, 227u, width_m);
     const float land = ground_octave(xz + vec2(9.0f * near, 120.0f * wide), 330.0f, 229u, width_m);
     const float grain = ground_octave(other + 1.3f, 1.9f, 233u, width_m);
-    return 0.65f * land + 0.5f * wide + 0.32f * near + 0.22f * fine + 0.18f * grain;
+    const float country = ground_octave(turned + vec2(350.0f * land, 160.0f * wide), 1100.0f, 239u, width_m);
+    GroundGrowth growth;
+    growth.moist = 0.5f * country + 0.6f * land + 0.5f * wide + 0.42f * near + 0.32f * fine + 0.22f * grain;
+    growth.other = 0.1f * country + 0.55f * wide - 0.6f * land + 0.42f * near - 0.36f * fine - 0.2f * grain;
+    return growth;
 }
+SHARED_FN float ground_moisture(vec2 xz, float width_m) { return ground_growth(xz, width_m).moist; }
 
-// Factor of the albedo, 1 in the mean; at strength 1 its deviation is 12 % of red, 9 % of green, 8 % of blue: moist
-// ground is dark and green, dry ground pale and yellow.
+// Factor of the albedo, 1 in the mean; at strength 1 its deviation is 13 % of red, 9 % of green and of blue: moist
+// ground is dark and green, dry ground pale and yellow, and in seed it is browner than mown.
 SHARED_FN vec3 ground_tone(vec2 xz, float width_m, float strength)
 {
-    const float dry = -strength * ground_moisture(xz, width_m);
-    return max(splat3(1.0f) + dry * vec3(0.60f, 0.46f, 0.41f), splat3(0.25f));
+    const GroundGrowth growth = ground_growth(xz, width_m);
+    return max(splat3(1.0f) - (strength * growth.moist) * vec3(0.46f, 0.37f, 0.34f) + (strength * growth.other) * vec3(0.28f, 0.05f, 0.12f), splat3(0.25f));
 }
 
 // What the mesh of wide ground does not have of its relief, m: its triangles are metres wide, and no meadow is so even. 0

@@ -52,6 +52,24 @@ TEST(GroundTone, VariesAboutWhatTheTextureSays)
     EXPECT_LT(moist.most, 1.0);
 }
 
+// What grows there is a second thing, so that a field differs in hue and not in brightness alone; and a wide one goes on varying over a
+// kilometre.
+TEST(GroundTone, VariesInHueToo)
+{
+    const Spread hue = spread_of(40000, [](vec2 at) {
+        const vec3 tone = ground_tone(at, 0.0f, 1.0f);
+        return tone.x / tone.y;
+    });
+    EXPECT_GT(hue.deviation, 0.055);
+    const auto together = spread_of(40000, [](vec2 at) {
+        const GroundGrowth growth = ground_growth(at, 0.0f);
+        return growth.moist * growth.other;
+    });
+    EXPECT_NEAR(together.mean, 0.0, 0.006);
+    const double far = spread_of(20000, [](vec2 at) { return ground_moisture(at, 300.0f); }).deviation;
+    EXPECT_GT(far, 0.09);
+}
+
 TEST(GroundTone, IsOffAtNoneAndGoneInAWidePixel)
 {
     for (float x = -900.0f; x < 900.0f; x += 37.0f) {
@@ -107,6 +125,16 @@ TEST(GroundRelief, HasNoDirectionOfItsOwn)
 {
     EXPECT_LT(squareness([](vec2 at) { return ground_relief(at); }), 0.06);
     EXPECT_GT(squareness([](vec2 at) { return endless_noise(at * 0.43f, 131u); }), 0.15);
+}
+
+// Shores wind within a hand's breadth too: over 6 cm, how far a place lies from the middle of those beside it.
+TEST(GroundRelief, GoesOnToAHandsBreadth)
+{
+    const Spread bend = spread_of(40000, [](vec2 at) {
+        const vec2 beside(0.06f, 0.0f), here = at * 0.02f;
+        return ground_relief(here + beside) + ground_relief(here - beside) - 2.0f * ground_relief(here);
+    });
+    EXPECT_GT(bend.deviation, 0.015);
 }
 
 // A pond of wide ground ends in a marsh: never wider than the water, the deeper the more of it, whole in the end.

@@ -78,6 +78,42 @@ TEST_F(GroundToneTest, OfWideGroundIsThatOfTheFormulaAndOfSmallGroundNone)
     }
 }
 
+// A dusting: small ground is bare until its snow closes, wide ground turns pale, the more the less it is inclined.
+TEST_F(GroundToneTest, ThinSnowLiesAmongTheBladesOfWideGround)
+{
+    const auto white = [&](float width_m, float tilt_deg) {
+        const float tilt = glm::radians(tilt_deg);
+        const glm::vec3 up_slope(0, width_m * std::sin(tilt), -width_m * std::cos(tilt));
+        renderer->load(scene_of({quad({-0.5f * width_m, 0, 0.5f * width_m}, {width_m, 0, 0}, up_slope)}, {plain_material({0.2f, 0.3f, 0.1f})}), {});
+        Frame frame = from_above(0.4f * width_m, 1.0f);
+        frame.camera = look({0, 3.0f * width_m, 0.3f * width_m}, {0, 0, 0.3f * width_m});
+        frame.camera.orthographic_height_m = 0.2f * width_m;
+        frame.settings.aovs = {"snow"};
+        frame.weather.snow_amount = 0.2f;
+        frame.settings.snow_body = false;
+        const RenderResult r = renderer->render(frame);
+        double sum = 0.0;
+        float most = 0.0f;
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                sum += static_cast<double>(aov(r, "snow", x, y, 0));
+                most = std::max(most, aov(r, "snow", x, y, 0));
+            }
+        }
+        if (width_m > 142.0f) {
+            EXPECT_LT(most, 0.7f) << tilt_deg;
+        }
+        return sum / (kSize * kSize);
+    };
+    EXPECT_LT(white(40.0f, 0.0f), 0.07);
+    const double level = white(400.0f, 0.0f), inclined = white(400.0f, 42.0f), steep = white(400.0f, 62.0f);
+    EXPECT_GT(level, 0.15);
+    EXPECT_LT(level, 0.35);
+    EXPECT_GT(inclined, 0.05);
+    EXPECT_LT(inclined, 0.8 * level);
+    EXPECT_LT(steep, 0.02);
+}
+
 // A slope of 53 degrees seen from above: wide ground is bent over its relief, a small slope is flat.
 TEST_F(GroundToneTest, SteepWideGroundIsBentOverItsRelief)
 {

@@ -8,7 +8,7 @@
 #include "formulas/light/brdf.h"
 #include "formulas/light/cube_quads.h"
 #include "formulas/light/fog.h"
-#include "formulas/light/rain_clouds.h"
+#include "formulas/light/rain_curtains.h"
 #include "formulas/weather/falling.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/frame_io.h"
@@ -138,8 +138,8 @@ float rain_per_m(const shared::WeatherMoment& weather)
 float relief_gain(const shared::SkyParams& p)
 {
     if (p.rain <= 0.0f || p.cloud_cover <= 0.0f) return 1.0f;
-    constexpr int kRings = 9, kAround = 40;
-    const glm::vec2 drift_m = p.time_s * p.wind_m_s;
+    constexpr int kRings = 13, kAround = 48;
+    const glm::vec2 drift_m = p.time_s * p.wind_m_s, lean = p.wind_m_s * shared::kCurtainLean_per_m_s;
     float even = 0.0f, rains = 0.0f;
     for (int ring = 0; ring < kRings; ++ring) {
         // Rings of as much level ground's light of an even sky.
@@ -149,8 +149,8 @@ float relief_gain(const shared::SkyParams& p)
             const float angle = 2.0f * shared::kPi * (static_cast<float>(k) + 0.5f * static_cast<float>(ring % 2)) / kAround;
             const glm::vec3 d(level * std::cos(angle), up, level * std::sin(angle));
             const float weight = 1.0f + 2.0f * up;  // CIE overcast
-            even += weight * shared::layer_relief_wide(d, drift_m, 0.06f, 0.0f);
-            rains += weight * shared::layer_relief_wide(d, drift_m, 0.06f, p.rain);
+            even += weight * shared::layer_relief_wide(d, drift_m, 0.03f, 0.0f);
+            rains += weight * shared::layer_relief_wide(d, drift_m, 0.03f, p.rain) * shared::rain_curtains(d, drift_m, lean, p.rain).x;
         }
     }
     return even / rains;

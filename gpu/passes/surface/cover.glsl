@@ -89,7 +89,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     snow.melt = 0.0;
     // A patch knows how steep it is; of the pixel its relief alone counts.
     const float up = here.placed ? min(smoothed.y + 1.0 - saturate(at.normal.y), 1.0) : smoothed.y;
-    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up, over_m, ledge);
+    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up, over_m, ledge, here.placed ? 1.0 : turf_holds(at.normal.y));
     if ((SNOW & SNOW_BODY) != 0u) {
         snow.snow = max(snow.snow, body);
         snow.melt = max(snow.melt, own_body.wets);

@@ -4,6 +4,7 @@
 
 #include "formulas/weather/ground_relief.h"
 #include "formulas/weather/land_relief.h"
+#include "formulas/weather/snow_in_turf.h"
 #include "formulas/weather/surface_weather.h"
 #include "gpu/passes/surface/sets.glsl"
 #include "gpu/passes/surface/textures.glsl"
@@ -109,8 +110,8 @@ float stands_over_m(SurfaceInput at)
 }
 
 // smoothed_up: y of the pixel normal, smoothed by the snow's amount. over_m: as stands_over_m(). ledge: as
-// ledge_of().
-SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m, float ledge)
+// ledge_of(). held: share of the snow of `amount` that this slope holds, 1 where a patch has told.
+SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m, float ledge, float held)
 {
     // What falls first comes to rest between the stones.
     const float between = clamp(-over_m / SNOW_SETTLES_M, -1.0, 1.0);
@@ -136,6 +137,8 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m
     const float unique = unique_mask(at);
     const bool slope_of_land = (BESIDES & BESIDES_WIDE_GROUND) != 0u && at.normal.y < 0.85;
     SlopeRelief relief;
+    relief.flatter = 0.0;
+    relief.lost = 0.0;
     if (slope_of_land) {
         const vec3 dx = at.position_dx, dy = at.position_dy;
         const float width_m = sqrt(max(dot(dx, dx), dot(dy, dy)));
@@ -151,6 +154,9 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m
         const SnowCover level = snow_cover(amount, height, 1.0, 0.0, unique, mask, detail, melt, blurred);
         cover.snow = max(cover.snow, caught * level.snow);
         cover.melt = max(cover.melt, caught * level.melt);
+    }
+    if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
+        cover = with_snow_in_turf(cover, snow_in_turf(amount * held, mask, relief.flatter) * height * unique);
     }
     return cover;
 }
