@@ -675,8 +675,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 v = probe_direction(a.x, 0.02f + 0.96f * a.y);
         const vec3 n = normalize(v + probe_direction(a.z, a.w));
         const float rough = 0.2f + 0.8f * b.w;
-        const Lobe lobe = with_all_light(make_lobe(n, v, splat3(0.1f), vec3(b.x, b.y, b.z), rough * rough), facet_roughness(rough, c.w - 0.5f),
-                                         lost_along_grain(rough, c.w - 0.5f));
+        const Lobe lobe = with_light_along_grain(make_lobe(n, v, splat3(0.1f), vec3(b.x, b.y, b.z), rough * rough), rough,
+                                                 frame_tangent(n), 2.0f * c.w - 1.0f);
         const vec3 lit = shade_lobe(lobe, normalize(2.0f * n + probe_direction(c.x, c.y) - v));
         return vec4(lit.x, lit.y, lit.z, lost_at(facet_loss(0.05f + 0.95f * c.z), c.w) + lost_in_all(c.z));
     }

@@ -78,8 +78,8 @@ SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
 }
 
 // The same with the light that its facets lose to each other (formulas/light/facet_loss.h).
-//   roughness  perceptual, of that loss: the lobe's own, or facet_roughness() of layers.h
-//   along      what of it goes along the lobe: lost_along_lobe(), or lost_along_grain() of layers.h
+//   roughness  perceptual
+//   along      what of it goes along the lobe: lost_along_lobe()
 SHARED_FN Lobe with_all_light(Lobe lobe, float roughness, float along)
 {
     const FoundAgain found = found_again(lobe.f0, roughness, lobe.nv, along);

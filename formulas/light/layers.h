@@ -9,6 +9,7 @@
 
 #include "base/interop.h"
 #include "formulas/light/brdf.h"
+#include "formulas/light/grain_loss.h"
 
 SHARED_BEGIN
 
@@ -92,31 +93,6 @@ SHARED_FN float coat_fresnel(float cosine)
     return 0.04f + 0.96f * m2 * m2 * m;
 }
 
-// Alpha along the tangent, of KHR_materials_anisotropy; across it is the square of the roughness.
-SHARED_FN float alpha_along(float roughness, float anisotropy)
-{
-    return mix(roughness * roughness, 1.0f, anisotropy * anisotropy);
-}
-
-// The roughness of a round lobe that loses as much light between its facets: slopes of the same variance. In the mean over
-// turns it is within 0.05 of what is lost (FacetLoss.AlongAGrainIsThatOfAsSteepSlopes).
-SHARED_FN float facet_roughness(float roughness, float anisotropy)
-{
-    if (anisotropy <= 0.0f) return roughness;
-    const float across = roughness * roughness;
-    const float along = alpha_along(roughness, anisotropy);
-    return sqrt(sqrt(0.5f * (along * along + across * across)));
-}
-
-// What of it goes along the lobe: the more, the longer that is (FacetWalk.AlongAGrain..).
-SHARED_FN float lost_along_grain(float roughness, float anisotropy)
-{
-    const float round = lost_along_lobe(roughness);
-    if (anisotropy <= 0.0f) return round;
-    const float narrow = roughness * roughness / alpha_along(roughness, anisotropy);
-    return mix(1.0f, round, clamp(2.5f * (narrow - 0.15f), 0.0f, 1.0f));
-}
-
 // A base with layers over it, from the answer of the base alone: that of shade_lobe(), or of two lobes
 // (two_lobes.h). Arguments as of shade_layered_lobe().
 SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, float roughness, Layers layers)
@@ -125,13 +101,17 @@ SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, floa
     const vec3 v = lobe.view;
     const float facing = dot(n, l);
     if (layers.anisotropy > 0.0f) {
-        const float alpha = roughness * roughness;
+        const float across = roughness * roughness;
         const float along = alpha_along(roughness, layers.anisotropy);
+        const float narrow = across / along;
         const float lh = clamp(dot(l, half_vector(v, l)), 0.0f, 1.0f);
-        const float lobe_here = anisotropic_lobe(n, layers.tangent, v, l, along, alpha) * lobe.lit;
         const float nl = max(facing, 0.0f);
-        const float lost = lost_at(lobe.loss, nl);
-        base = (lobe.diffuse + lobe.again * lost + mirrored_along(lobe, lh, lost) * lobe_here) * nl;
+        const float lost = lost_at(lobe.loss, grain_cosine(l, n, layers.tangent, along, narrow));
+        const vec2 wide = spread_along_grain(along, across);
+        const float sent_on = lobe.loss.along * weight_along_grain(lost, lost_in_all(facet_roughness_of(along, across)), narrow) *
+                              anisotropic_lobe(n, layers.tangent, v, l, wide.x, wide.y) * lobe.lit;
+        base = (lobe.diffuse + lobe.again * (lost + sent_on) +
+                schlick_fresnel(lobe.f0, lh) * (anisotropic_lobe(n, layers.tangent, v, l, along, across) * lobe.lit)) * nl;
     }
     if (layers.sheen.x + layers.sheen.y + layers.sheen.z > 0.0f) {
         const float nl = max(facing, 0.0f);

@@ -83,38 +83,53 @@ TEST(FacetLoss, IsTheSameInBothDirections)
         const vec3 there = towards(v, l);
         const vec3 back = towards(l, v);
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(there[c], back[c], 1e-3f * there[c] + 1e-5f) << k;
+        Layers layers{};
+        layers.anisotropy = unit();
+        layers.tangent = direction(0.0f, 6.2831853f * unit());
+        const auto along_grain = [&](const vec3& eye, const vec3& light) {
+            const Lobe lobe = with_light_along_grain(make_lobe(kUp, eye, vec3(0.2f), f0, roughness * roughness), roughness, layers.tangent, layers.anisotropy);
+            return shade_layered_lobe(lobe, light, vec3(0.2f), roughness, layers).g / light.z;
+        };
+        ASSERT_NEAR(along_grain(v, l), along_grain(l, v), 2e-3f * along_grain(v, l) + 1e-5f) << k;
     }
 }
 
-// Share of light from all around that one facet each of a white metal with a grain sends to the eye, in the mean over its turns.
-float sent_along_grain(float roughness, float anisotropy, float up)
+// Share of light from all around that one facet each of a white metal with a grain sends to an eye.
+float sent_along_grain(float along, float across, const vec3& eye)
 {
-    const int rows = 200, columns = 200, turns = 8;
-    const float across = roughness * roughness;
-    const float along = alpha_along(roughness, anisotropy);
+    const int rows = 300, columns = 400;
     double sum = 0.0;
-    for (int k = 0; k < turns; ++k) {
-        const vec3 v = direction(up, (static_cast<float>(k) + 0.5f) / turns * 1.5707963f);
-        for (int i = 0; i < rows; ++i) {
-            for (int j = 0; j < columns; ++j) {
-                const vec3 l = direction((static_cast<float>(i) + 0.5f) / rows, (static_cast<float>(j) + 0.5f) / columns * 6.2831853f);
-                sum += static_cast<double>(anisotropic_lobe(kUp, vec3(1, 0, 0), v, l, along, across) * l.z);
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            const vec3 l = direction((static_cast<float>(i) + 0.5f) / rows, (static_cast<float>(j) + 0.5f) / columns * 6.2831853f);
+            sum += static_cast<double>(anisotropic_lobe(kUp, vec3(1, 0, 0), eye, l, along, across) * l.z);
+        }
+    }
+    return static_cast<float>(sum * 2.0 * 3.14159265358979 / (rows * columns));
+}
+
+TEST(FacetLoss, AlongAGrainItIsLostByDirection)
+{
+    for (const float roughness : {0.4f, 0.6f}) {
+        for (const float anisotropy : {0.5f, 0.75f, 1.0f}) {
+            const float across = roughness * roughness, along = alpha_along(roughness, anisotropy);
+            const FacetLoss loss = facet_loss(facet_roughness(roughness, anisotropy));
+            for (const float up : {0.2f, 0.5f, 0.9f}) {
+                for (const float turn : {0.0f, 0.785f, 1.5708f}) {
+                    const vec3 eye = direction(up, turn);
+                    EXPECT_NEAR(lost_at(loss, grain_cosine(eye, kUp, vec3(1, 0, 0), along, across / along)), 1.0f - sent_along_grain(along, across, eye), 0.04f)
+                        << roughness << " " << anisotropy << " " << up << " " << turn;
+                }
             }
         }
     }
-    return static_cast<float>(sum * 2.0 * 3.14159265358979 / (turns * rows * columns));
-}
-
-TEST(FacetLoss, AlongAGrainIsThatOfAsSteepSlopes)
-{
-    for (const float roughness : {0.4f, 0.6f}) {
-        for (const float anisotropy : {0.5f, 0.6f, 0.8f}) {
-            const FacetLoss loss = facet_loss(facet_roughness(roughness, anisotropy));
-            for (const float up : {0.2f, 0.5f, 0.9f})
-                EXPECT_NEAR(lost_at(loss, up), 1.0f - sent_along_grain(roughness, anisotropy, up), 0.05f) << roughness << " " << anisotropy << " " << up;
-        }
-    }
     EXPECT_EQ(facet_roughness(0.3f, 0.0f), 0.3f);
+    // One that is hardly there is as round.
+    const vec3 eye = direction(0.6f, 0.3f);
+    const Lobe lobe = make_lobe(kUp, eye, vec3(0.0f), vec3(1.0f), 0.25f);
+    const Lobe round = with_light_along_grain(lobe, 0.5f, vec3(1, 0, 0), 0.0f), nearly = with_light_along_grain(lobe, 0.5f, vec3(1, 0, 0), 0.01f);
+    EXPECT_NEAR(nearly.again.g, round.again.g, 1e-3f * round.again.g);
+    EXPECT_NEAR(nearly.loss.along, round.loss.along, 1e-3f * round.loss.along);
 }
 
 TEST(FacetLoss, IsAShareOfWhatComesIn)

@@ -124,24 +124,35 @@ TEST(FacetWalk, LightGoesWhereAWalkFromFacetToFacetSendsIt)
     }
 }
 
-TEST(FacetWalk, AlongAGrainItGoesMoreAlongTheLobe)
+double total(const Sent& sent)
 {
-    for (const float anisotropy : {0.5f, 0.6f, 0.7f}) {
-        const float roughness = 0.4f, across = roughness * roughness, along = alpha_along(roughness, anisotropy);
-        const dvec3 eye = glm::normalize(dvec3(0.5, 0.0, 0.8));
-        const Sent walked = by_walk(static_cast<double>(along), static_cast<double>(across), eye, 400000);
-        Layers layers{};
-        layers.anisotropy = anisotropy;
-        layers.tangent = glm::vec3(1, 0, 0);
-        const Lobe alone = make_lobe(kUp, glm::vec3(eye), glm::vec3(0.0f), kWhite, across);
-        const auto off = [&](const Lobe& lobe) {
-            return error(by_formula([&](const glm::vec3& l) { return shade_layered_lobe(lobe, l, glm::vec3(0.0f), roughness, layers); }), walked);
-        };
-        const double all = off(with_all_light(alone, facet_roughness(roughness, anisotropy), lost_along_grain(roughness, anisotropy)));
-        const double as_round = off(with_all_light(alone, facet_roughness(roughness, anisotropy), lost_along_lobe(roughness)));
-        EXPECT_LT(all, 0.12) << anisotropy;
-        EXPECT_LT(all, as_round) << anisotropy;
-        EXPECT_GT(off(alone), 0.25) << anisotropy;
+    double sum = 0.0;
+    for (const double share : sent) sum += share;
+    return sum;
+}
+
+// Up to the longest lobe that KHR_materials_anisotropy has.
+TEST(FacetWalk, AlongAGrainItGoesByItsLength)
+{
+    for (const float roughness : {0.2f, 0.4f, 0.6f}) {
+        for (const float anisotropy : {0.5f, 0.7f, 0.85f, 1.0f}) {
+            for (const dvec3& towards : {dvec3(0.5, 0.0, 0.8), dvec3(0.0, 0.5, 0.8), dvec3(0.9, 0.0, 0.3), dvec3(0.0, 0.9, 0.3)}) {
+                const float across = roughness * roughness, along = alpha_along(roughness, anisotropy);
+                const dvec3 eye = glm::normalize(towards);
+                const Sent walked = by_walk(static_cast<double>(along), static_cast<double>(across), eye, 100000);
+                Layers layers{};
+                layers.anisotropy = anisotropy;
+                layers.tangent = glm::vec3(1, 0, 0);
+                const Lobe alone = make_lobe(kUp, glm::vec3(eye), glm::vec3(0.0f), kWhite, across);
+                const auto sent = [&](const Lobe& lobe) {
+                    return by_formula([&](const glm::vec3& l) { return shade_layered_lobe(lobe, l, glm::vec3(0.0f), roughness, layers); });
+                };
+                const Sent all = sent(with_light_along_grain(alone, roughness, layers.tangent, anisotropy));
+                EXPECT_LT(error(all, walked), 0.24) << roughness << " " << anisotropy << " " << eye.x << " " << eye.z;
+                EXPECT_NEAR(total(all), 1.0, 0.1) << roughness << " " << anisotropy << " " << eye.x << " " << eye.z;
+                EXPECT_GT(error(sent(alone), walked), 1.5 * error(all, walked)) << roughness << " " << anisotropy << " " << eye.x << " " << eye.z;
+            }
+        }
     }
 }
 

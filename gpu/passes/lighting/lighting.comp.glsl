@@ -335,9 +335,8 @@ void main()
                 }
             }
         }
-        p.lobe = with_all_light(make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
-                                          p.roughness * p.roughness), facet_roughness(p.roughness, p.layers.anisotropy),
-                                lost_along_grain(p.roughness, p.layers.anisotropy));
+        p.lobe = with_light_along_grain(make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
+                                                  p.roughness * p.roughness), p.roughness, p.layers.tangent, p.layers.anisotropy);
 
         p.shaped = shaped_lobes(p);
         if ((SUN != 0u && SHADOWS != 0u) || LAMP_SHADOWS != 0u)
