@@ -146,13 +146,13 @@ TEST(Skill, RadiationInATownIsNearerThanSolweigs)
     };
     EXPECT_LT(score("kronenhuset", "K down"), 45.0);
     EXPECT_LT(score("kronenhuset", "L up"), 13.0);
-    EXPECT_LT(score("kronenhuset", "L down"), 32.0);
+    EXPECT_LT(score("kronenhuset", "L down"), 26.0);
     EXPECT_LT(score("gustav_adolfs", "K down"), 150.0);
-    EXPECT_LT(score("gustav_adolfs", "L down"), 40.0);
+    EXPECT_LT(score("gustav_adolfs", "L down"), 28.0);
     EXPECT_LT(score("champaign_1998_half_hourly", "wetness"), 0.5) << "kappa";
     // What is left is for the most part not the model's: a winter's air with a third of the vapour has .70.
     EXPECT_LT(score("kronenhuset", "clear sky over black"), 0.70);
-    EXPECT_LT(score("gustav_adolfs", "clear sky over black"), 0.72);
+    EXPECT_LT(score("gustav_adolfs", "clear sky over black"), 0.73);
 }
 
 // A winter of rain under a black sky, whose instrument reads 5 % less from a day on.
@@ -332,7 +332,7 @@ TEST(SnowMaps, WhatDoesNotFitIsToldAndNotScored)
 }
 
 // A plain of 80 x 80 m with a station in its middle, and a clear day; a house may stand south of it.
-UrbanSite plain(bool house)
+UrbanSite plain(bool house, float high_m = 20.0f)
 {
     UrbanSite site;
     site.name = "plain";
@@ -343,7 +343,7 @@ UrbanSite plain(bool house)
     site.station = 40 * 80 + 40;
     site.station_m = {40.5f, 1.0f, 40.5f};
     for (std::size_t z = 46; house && z < 60; ++z)
-        for (std::size_t x = 20; x < 60; ++x) site.top_m[z * 80 + x] = 20.0f;
+        for (std::size_t x = 20; x < 60; ++x) site.top_m[z * 80 + x] = high_m;
     UrbanDay day;
     weather::ForcingTable& t = day.table;
     t.site = {.latitude_deg = 50.0, .longitude_deg = 0.0, .elevation_m = 10.0};
@@ -383,7 +383,10 @@ TEST(UrbanRadiation, OfAPlainIsThatOfTheOpen)
     };
     EXPECT_NEAR(r.shortwave[kFaceDown] / now(weather::Field::Shortwave), 1.0, 0.01);
     EXPECT_NEAR(r.shortwave[kFaceUp] / now(weather::Field::Shortwave), 0.18, 0.01);
-    EXPECT_NEAR(r.longwave[kFaceDown], now(weather::Field::Longwave), 2.0);
+    // Its flat window leaves out the rim of the sky, which is the warmest of it.
+    const double rim_w_m2 = now(weather::Field::Longwave) - r.longwave[kFaceDown];
+    EXPECT_GT(rim_w_m2, 2.0);
+    EXPECT_LT(rim_w_m2, 5.0);
     EXPECT_GT(r.longwave[kFaceUp], 420.0) << "warmer than the air at noon";
     EXPECT_GT(r.shortwave[kFaceSouth], 4.0 * r.shortwave[kFaceNorth]);
     EXPECT_NEAR(before_noon.shortwave[kFaceEast] / r.shortwave[kFaceWest], 1.0, 0.2);
@@ -392,6 +395,20 @@ TEST(UrbanRadiation, OfAPlainIsThatOfTheOpen)
     EXPECT_LT(s.shortwave[kFaceUp], 0.3 * r.shortwave[kFaceUp]);
     EXPECT_LT(s.longwave[kFaceUp], r.longwave[kFaceUp] - 30.0) << "ground in the shade is cool";
     EXPECT_GT(s.longwave[kFaceDown], r.longwave[kFaceDown] + 5.0);
+}
+
+// A window that sees 75 degrees from the zenith sees nothing of a house that is 14 degrees high; the
+// sunlight's sensor does.
+TEST(UrbanRadiation, LowHousesAreOutsideTheWindowOfLongwave)
+{
+    const auto of = [](bool house, float high_m) {
+        const UrbanSite site = plain(house, high_m);
+        return urban_radiation(site, site.days[0]).back();
+    };
+    const UrbanRadiation open = of(false, 0.0f), low = of(true, 2.35f), high = of(true, 8.0f);
+    EXPECT_NEAR(low.longwave[kFaceDown], open.longwave[kFaceDown], 1e-6);
+    EXPECT_GT(high.longwave[kFaceDown], open.longwave[kFaceDown] + 3.0);
+    EXPECT_GT(std::abs(low.shortwave[kFaceDown] - open.shortwave[kFaceDown]), 0.1);
 }
 
 // Of sensors that measure what we send them the sky is ours, whatever the walls around are.

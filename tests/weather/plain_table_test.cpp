@@ -224,6 +224,55 @@ TEST(PlainTable, NamesAsProgramsWriteThem)
     }
 }
 
+// The same table with German names, as loggers, offices and spreadsheets there write it.
+TEST(PlainTable, GermanNamesAndDecimalCommas)
+{
+    const auto rows = hours();
+    const auto english = read_weather(text_of(kNames, rows), {.fill = false}).table;
+    const auto comma = [](std::size_t i, const std::string& cell) {
+        std::string text = cell;
+        if (i > 0) std::replace(text.begin(), text.end(), '.', ',');
+        // 2024-03-26T00:00 as 26.03.2024 00:00
+        else
+            text = cell.substr(8, 2) + "." + cell.substr(5, 2) + "." + cell.substr(0, 4) + " " + cell.substr(11);
+        return text;
+    };
+    const Row utf8 = {"Datum/Uhrzeit",    "Globalstrahlung [W/m\xC2\xB2]", "Gegenstrahlung (W/m\xC2\xB2)",
+                      "Niederschlag [mm]", "Temperatur [\xC2\xB0" "C]",      "rel. Feuchte [%]",
+                      "Windgeschwindigkeit (m/s)", "Luftdruck (hPa)"};
+    Row names = utf8;
+    names[5] = "Relative Luftfeuchte [%]";
+    const auto german = read_weather(text_of(names, rows, ";", comma), {.fill = false});
+    for (std::size_t f = 0; f < kFieldCount; ++f)
+        EXPECT_EQ(german.table.columns[f].size(), english.columns[f].size()) << f;
+    ASSERT_EQ(german.table.time_us, english.time_us);
+    for (const Field f : {Field::Shortwave, Field::Longwave, Field::Precip, Field::AirTemp,
+                          Field::RelHumidity, Field::Wind, Field::Pressure})
+        for (std::size_t i = 0; i < english.rows(); ++i)
+            ASSERT_NEAR(german.table[f][i], english[f][i], 1e-9) << i;
+    // Latin-1, and a date and a clock apart, under names of other units.
+    Row latin = names;
+    latin[4] = "Lufttemperatur \xB0" "C";
+    latin[3] = "Niederschlag l/m\xB2";
+    EXPECT_NEAR(read_weather(text_of(latin, rows, ";", comma), {.fill = false}).table[Field::AirTemp][7],
+                english[Field::AirTemp][7], 1e-9);
+    const std::string apart = "Datum;Zeit;Wind (km/h);Schneeh\xC3\xB6he (cm);Bew\xC3\xB6lkung (Achtel);Regen (mm)\n"
+                              "31.01.2024;06:00;7,2;12;4;0,3\n31.01.2024;07:00;10,8;13;8;0,0\n";
+    const auto two = read_weather(apart, {.fill = false}).table;
+    EXPECT_EQ(two.time_us[1], *us_from_iso("2024-01-31T07:00Z"));
+    EXPECT_NEAR(two[Field::Wind][1], 3.0, 1e-9);
+    EXPECT_NEAR(two[Field::SnowDepth][0], 0.12, 1e-9);
+    EXPECT_NEAR(two[Field::Cloud][0], 0.5, 1e-9);
+    EXPECT_NEAR(two[Field::Rain][0] * 3600.0, 0.3, 1e-9);
+    // What speaks of weather in German and is not understood is named too.
+    try {
+        read_weather(text_of(utf8, rows, ";", comma));
+        FAIL() << "read";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("not understood: rel. Feuchte [%]"));
+    }
+}
+
 TEST(PlainTable, RowsInAnyOrderAndTwice)
 {
     auto rows = hours();

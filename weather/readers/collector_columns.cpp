@@ -19,7 +19,8 @@ bool speaks_of_weather(std::string_view name)
     for (const char* word :
          {"temp",   "snow",  "rain",  "precip", "wind",  "gust",      "radiat",   "irradi", "press",
           "humid",  "cloud", "dew",   "solar",  "depth", "shortwave", "longwave", "swe",    "prcp",
-          "albedo", "vapo",  "sleet", "hail",   "ice",   "frost",     "visib",    "flux"}) {
+          "albedo", "vapo",  "sleet", "hail",   "ice",   "frost",     "visib",    "flux",
+          "niederschl", "regen", "schnee", "feucht", "luftdr", "strahl", "taupunkt"}) {
         if (low.find(word) != std::string::npos) return true;
     }
     // Short words, and units that little else has: sw, T2, rh_2m; sw_w_m2, p_hPa.

@@ -34,25 +34,26 @@ bool is_stamp_name(std::string_view name)
     return is_one_of(plain_name(name),
                      {"time", "time_utc", "datetime", "timestamp", "date_time", "timestamp_utc",
                       "datetime_utc", "date_time_utc", "valid_time", "local_time", "time_local",
-                      "observation_time", "obs_time", "time_stamp", "date_utc"});
+                      "observation_time", "obs_time", "time_stamp", "date_utc", "zeitstempel", "zeitpunkt",
+                      "datum_zeit", "datum_uhrzeit"});
 }
 bool is_clock_name(std::string_view name)
 {
-    return is_one_of(plain_name(name), {"hour", "hr", "time", "time_utc", "hour_utc"});
+    return is_one_of(plain_name(name), {"hour", "hr", "time", "time_utc", "hour_utc", "uhrzeit", "zeit", "stunde"});
 }
 bool is_part_name(std::string_view name, CsvTimes::Part part)
 {
     switch (part) {
         case CsvTimes::Year:
-            return is_one_of(name, {"year", "yyyy", "yr"});
+            return is_one_of(name, {"year", "yyyy", "yr", "jahr"});
         case CsvTimes::Month:
-            return is_one_of(name, {"month", "mo"});
+            return is_one_of(name, {"month", "mo", "monat"});
         case CsvTimes::Day:
-            return is_one_of(name, {"day", "dd"});
+            return is_one_of(name, {"day", "dd", "tag"});
         case CsvTimes::DayOfYear:
             return is_one_of(name, {"doy", "day_of_year", "jday", "julian_day"});
         case CsvTimes::Hour:
-            return is_one_of(name, {"hour", "hr", "hh"});
+            return is_one_of(name, {"hour", "hr", "hh", "stunde"});
         case CsvTimes::Minute:
             return is_one_of(name, {"minute", "min"});
         default:
@@ -354,7 +355,7 @@ CsvTimes find_csv_times(const std::vector<std::string_view>& names,
         times.stamp = 0;
         return times;
     }
-    const std::size_t date = first_where([](auto n) { return is_one_of(n, {"date"}); });
+    const std::size_t date = first_where([](auto n) { return is_one_of(n, {"date", "datum"}); });
     const std::size_t clock = first_where(is_clock_name);
     const std::size_t stamp = first_where(is_stamp_name);
     // "date,time": unless that time is whole by itself.

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -69,10 +70,21 @@ static void read_epw(std::string_view text, RowCollector& rows, const ReadOption
     for (int i = 1; i < 8; ++i) lines.next();
 
     std::vector<std::string_view> f;
-    Lines again = lines;
+    const auto date_of = [&](std::string_view line) -> std::optional<RowDate> {
+        split(line, ',', f, 5);
+        RowDate date{};
+        for (std::size_t i = 0; i < 5; ++i) {
+            const auto n = i < f.size() ? to_integer(f[i]) : std::nullopt;
+            if (!n && i < 4) return std::nullopt;
+            // The minutes of a whole hour, which ends with them, are 0 in one file, 60 in another.
+            date[i] = i == 4 && n.value_or(0) == 0 ? 60 : n.value_or(0);
+        }
+        return date;
+    };
+    const std::vector<TimedRow> table = oldest_first(lines, date_of, rows);
     TypicalYear typical;
-    while (const auto line = again.next()) {
-        split(*line, ',', f, 3);
+    for (const TimedRow& row : table) {
+        split(row.text, ',', f, 3);
         if (f.size() < 2) continue;
         const auto year = to_integer(f[0]), month = to_integer(f[1]);
         if (year && month && *month >= 1 && *month <= 12)
@@ -84,12 +96,11 @@ static void read_epw(std::string_view text, RowCollector& rows, const ReadOption
     rows.means_of_past(Field::Direct);
     rows.means_of_past(Field::Diffuse);
 
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', f, 64);
+    for (const TimedRow& row : table) {
+        split(row.text, ',', f, 64);
         if (f.size() < 22) {
             rows.bad_row(
-                lines.number(), "",
+                row.line, "",
                 "has " + std::to_string(f.size()) + " columns, 35 are usual and 22 needed");
             continue;
         }
@@ -97,12 +108,12 @@ static void read_epw(std::string_view text, RowCollector& rows, const ReadOption
                    hour = to_integer(f[3]);
         const auto minute = to_integer(f[4]);
         if (!year || !month || !day || !hour || *hour < 1 || *hour > 24) {
-            rows.bad_row(lines.number(), "time",
-                         "'" + shown(*line) + "' does not begin with year,month,day,hour 1..24");
+            rows.bad_row(row.line, "time",
+                         "'" + shown(row.text) + "' does not begin with year,month,day,hour 1..24");
             continue;
         }
         if (typical.typical && *month == 2 && *day == 29) {
-            rows.leap_day_left_out(lines.number());
+            rows.leap_day_left_out(row.line);
             continue;
         }
         // Minutes are 0 or 60 for whole hours; other values end sub-hourly intervals.
@@ -111,10 +122,10 @@ static void read_epw(std::string_view text, RowCollector& rows, const ReadOption
             {typical.of(*year), static_cast<int>(*month), static_cast<int>(*day),
              static_cast<int>(*hour) - (part ? 1 : 0), part ? static_cast<int>(*minute) : 0, 0.0});
         if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "': there is no such day");
+            rows.bad_row(row.line, "time", "'" + shown(row.text) + "': there is no such day");
             continue;
         }
-        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number()))
+        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), row.line))
             continue;
         for (const Column& c : kColumns) {
             if (c.index >= f.size()) continue;

@@ -13,6 +13,7 @@ namespace petrichor::weather {
             add(midc) add(tmy3) add(tmy2) add(wea) add(open_meteo_csv) add(visual_crossing)     \
                 add(openweather) add(nasa_power) add(fluxnet) add(meteo_france)                 \
                     add(meteo_france_synop) add(meteoswiss) add(weatherlink)                    \
+                        add(ecowitt) add(wunderground) add(geosphere) add(seklima)              \
                         add(gsod) add(global_hourly) add(lcd) add(ghcnh)  \
                             add(dwd) add(environment_canada) add(meteostat) add(iem) add(isd)   \
                                 add(metar) add(ghcn_daily) add(surfrad) add(umep) add(uscrn)    \

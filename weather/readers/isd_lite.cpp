@@ -6,6 +6,7 @@
 
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -36,11 +37,20 @@ static void read_isd_lite(std::string_view text, RowCollector& rows, const ReadO
     std::size_t traces = 0;
     Lines lines(text);
     std::vector<std::string_view> w;
-    while (const auto line = lines.next()) {
-        words(*line, w, 32);
-        if (w.empty()) continue;
+    const auto date_of = [](std::string_view line) -> std::optional<RowDate> {
+        const auto parts = words(line, 4);
+        RowDate date{};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto n = i < parts.size() ? to_integer(parts[i]) : std::nullopt;
+            if (!n) return std::nullopt;
+            date[i] = *n;
+        }
+        return date;
+    };
+    for (const TimedRow& row : oldest_first(lines, date_of, rows)) {
+        words(row.text, w, 32);
         if (w.size() != 12) {
-            rows.bad_row(lines.number(), "",
+            rows.bad_row(row.line, "",
                          "has " + std::to_string(w.size()) + " columns, 12 are needed");
             continue;
         }
@@ -58,11 +68,11 @@ static void read_isd_lite(std::string_view text, RowCollector& rows, const ReadO
                              : std::nullopt;
         if (!us) {
             rows.bad_row(
-                lines.number(), "time",
-                "'" + shown(*line) + "' is not twelve whole numbers that begin with a date");
+                row.line, "time",
+                "'" + shown(row.text) + "' is not twelve whole numbers that begin with a date");
             continue;
         }
-        if (!rows.begin_row(*us, lines.number())) continue;
+        if (!rows.begin_row(*us, row.line)) continue;
         const auto put = [&](Field field, long long value, double scale, double offset) {
             if (value == -9999)
                 rows.missing(field);

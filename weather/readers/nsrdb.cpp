@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/text.h"
 #include "weather/readers/units.h"
 
@@ -89,20 +90,26 @@ static void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOpti
         return static_cast<int>(civil_from_us(table.times.time_of(cells).value()).month);
     };
     std::vector<std::string_view> cells;
+    const auto date_of = [&](std::string_view line) -> std::optional<RowDate> {
+        split(line, ',', cells, kMostColumns);
+        const auto us = cells.size() >= table.names.size() ? table.times.time_of(cells) : std::nullopt;
+        if (!us) return std::nullopt;
+        const CivilTime t = civil_from_us(*us);
+        return RowDate{t.year, t.month, t.day, t.hour, t.minute};
+    };
+    const std::vector<TimedRow> below = oldest_first(lines, date_of, rows);
     TypicalYear typical;
-    Lines again = lines;
-    while (const auto line = again.next()) {
-        split(*line, ',', cells, kMostColumns);
+    for (const TimedRow& row : below) {
+        split(row.text, ',', cells, kMostColumns);
         if (cells.size() >= table.names.size() && table.times.time_of(cells))
             typical.watch(year_of(cells), month_of(cells));
     }
     typical.decide(rows);
 
-    while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
-        split(*line, ',', cells, kMostColumns);
+    for (const TimedRow& row : below) {
+        split(row.text, ',', cells, kMostColumns);
         if (cells.size() < table.names.size()) {
-            rows.bad_row(lines.number(), "",
+            rows.bad_row(row.line, "",
                          "has " + std::to_string(cells.size()) + " columns, the header names " +
                              std::to_string(table.names.size()));
             continue;
@@ -110,21 +117,21 @@ static void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOpti
         auto us = table.times.time_of(cells);
         if (!us) {
             rows.bad_row(
-                lines.number(), "time",
+                row.line, "time",
                 "'" + table.times.shown_cells(cells) + "' is not a year, month, day and hour");
             continue;
         }
         if (typical.typical) {
             CivilTime when = civil_from_us(*us);
             if (when.month == 2 && when.day == 29) {
-                rows.leap_day_left_out(lines.number());
+                rows.leap_day_left_out(row.line);
                 continue;
             }
             when.year = typical.of(when.year);
             us = us_from_civil(when);
         }
         if (!us) continue;
-        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number()))
+        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), row.line))
             continue;
         for (std::size_t i = 0; i < table.names.size(); ++i) {
             if (!table.meaning[i]) continue;
@@ -143,7 +150,7 @@ namespace {
 
 bool recognise(const FileHead& head)
 {
-    return head.begins("Source,Location ID,");
+    return head.first.rfind("source,location id,", 0) == 0;
 }
 
 }  // namespace

@@ -149,6 +149,65 @@ void check_longwave(const ForcingTable& table, ReadReport& report)
         odd(all, kFew, kLeast, "");
 }
 
+// Whether values, written with one digit behind the point or none, are multiples of a step: many of them,
+// of several sizes.
+bool in_steps_of(const std::vector<double>& values, double step)
+{
+    constexpr std::size_t kFew = 48, kSizes = 6;
+    if (values.size() < kFew) return false;
+    const auto written = [&](double digit) {
+        return std::all_of(values.begin(), values.end(), [&](double v) {
+            return std::abs(v / digit - std::round(v / digit)) < 1e-6;
+        });
+    };
+    const double digit = written(1.0) ? 1.0 : 0.1;
+    if (!written(digit)) return false;
+    std::vector<double> sizes;
+    for (const double v : values) {
+        const double near = std::round(std::round(v / step) * step / digit) * digit;
+        if (std::abs(v - near) > 1e-6) return false;
+        sizes.push_back(std::round(v / step));
+    }
+    std::sort(sizes.begin(), sizes.end());
+    return std::unique(sizes.begin(), sizes.end()) - sizes.begin() >=
+           static_cast<std::ptrdiff_t>(kSizes);
+}
+
+// km/h under a name that says m/s: too much wind for nearly all places, or steps of whole m/s or knots in
+// km/h, which no m/s has.
+void check_wind(const ForcingTable& table, ReadReport& report)
+{
+    constexpr double kMost_m_s = 12.0, kFew_h = 120.0;
+    if (!table.has(Field::Wind)) return;
+    double sum = 0.0, hours = 0.0;
+    std::vector<double> winds;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const double wind = table[Field::Wind][i];
+        if (std::isnan(wind)) continue;
+        if (wind > 0.05) winds.push_back(wind);
+        if (i + 1 == table.rows()) break;
+        const double h = static_cast<double>(table.time_us[i + 1] - table.time_us[i]) / 3600e6;
+        if (h > 24.0) continue;
+        sum += wind * h;
+        hours += h;
+    }
+    char said[240] = "";
+    if (hours >= kFew_h && sum / hours > kMost_m_s)
+        std::snprintf(said, sizeof said,
+                      "%.1f m/s in the mean of %.0f h, as hardly anywhere: if it is km/h, it is %.1f "
+                      "m/s, and its name must say so",
+                      sum / hours, hours, sum / hours / 3.6);
+    for (const auto& [step, what] : {std::pair{3.6, "whole m/s"}, {1.852, "whole knots"}}) {
+        if (said[0] == '\0' && in_steps_of(winds, step))
+            std::snprintf(said, sizeof said,
+                          "all values are multiples of %g, as %s are in km/h: if it is km/h, its name "
+                          "must say so",
+                          step, what);
+    }
+    if (said[0] != '\0')
+        report.add({ReadNote::Kind::Warning, 0, field_info(Field::Wind).name, said});
+}
+
 // Where a file has dew points and humidities too, they tell in which scale its temperatures are. Below
 // 0 C humidity may be that over ice, and says nothing.
 void refuse_other_scale(const ForcingTable& table, const std::string& format)
@@ -414,6 +473,7 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
     }
     refuse_other_scale(result.table, result.report.format);
     check_sun(result.table, rows.zone_named(), result.report);
+    check_wind(result.table, result.report);
     check_light(result.table, result.report);
     check_longwave(result.table, result.report);
     if (options.fill) fill_forcing(result.table, result.report, options.filling);

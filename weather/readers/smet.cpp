@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/table_rows.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -112,22 +113,28 @@ static void read_smet(std::string_view text, RowCollector& rows, const ReadOptio
     std::int64_t last = 0;
     bool have_last = false;
     std::vector<std::string_view> f;
-    while (const auto line = lines.next()) {
-        const auto t = trimmed(*line);
-        if (t.empty() || t.front() == '#') continue;
-        words(*line, f, 256);
+    const auto date_of = [&](std::string_view line) -> std::optional<RowDate> {
+        words(line, f, 256);
+        const auto us = time_at < f.size() ? us_from_iso(f[time_at], zone_h * 3600.0) : std::nullopt;
+        if (!us) return std::nullopt;
+        const CivilTime t = civil_from_us(*us);
+        return RowDate{t.year, t.month, t.day, t.hour, t.minute};
+    };
+    for (const TimedRow& row : oldest_first(lines, date_of, rows)) {
+        if (trimmed(row.text).front() == '#') continue;
+        words(row.text, f, 256);
         if (f.size() != meaning.size()) {
-            rows.bad_row(lines.number(), "",
+            rows.bad_row(row.line, "",
                          "has " + std::to_string(f.size()) + " columns, fields names " +
                              std::to_string(meaning.size()));
             continue;
         }
         const auto us = us_from_iso(f[time_at], zone_h * 3600.0);
         if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(f[time_at]) + "' is not a time");
+            rows.bad_row(row.line, "time", "'" + shown(f[time_at]) + "' is not a time");
             continue;
         }
-        if (!rows.begin_row(*us, lines.number())) continue;
+        if (!rows.begin_row(*us, row.line)) continue;
         const double hours = have_last ? static_cast<double>(*us - last) / 3600e6 : 1.0;
         have_last = true;
         last = *us;

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "weather/readers/plain_table.h"
 
 namespace petrichor::weather {
 namespace {
@@ -36,11 +35,52 @@ void for_dated_rows(Lines& lines, const DatedRows& how, RowCollector& rows,
     }
 }
 
+std::vector<TimedRow> oldest_first(
+    Lines& lines, const std::function<std::optional<RowDate>(std::string_view)>& date_of,
+    RowCollector& rows)
+{
+    // Only compared, so that days which no month has need no care.
+    constexpr std::int64_t kPart = 10000, kYear = kPart * kPart;
+    std::vector<TimedRow> found;
+    bool falls = false, rises = false, days_fall = false;
+    while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
+        TimedRow row{*line, lines.number(), found.empty() ? 0 : found.back().time_us, false};
+        const auto date = date_of(*line);
+        if (date && std::all_of(date->begin(), date->end(),
+                                [](long long part) { return part >= 0 && part < 10000; })) {
+            const auto& [year, month, day, hour, minute] = *date;
+            row.time_us = year * kYear + (month * 40 + day) * kPart + hour * 100 + minute;
+            row.timed = true;
+            falls = falls || (!found.empty() && row.time_us < found.back().time_us);
+            rises = rises || (!found.empty() && row.time_us > found.back().time_us);
+            days_fall = days_fall || (!found.empty() &&
+                                      row.time_us % kYear < found.back().time_us % kYear);
+        }
+        found.push_back(row);
+    }
+    // Years alone that fall are those of a typical year.
+    if (falls && !days_fall) return found;
+    if (falls && rises) {
+        // Months of different years: their days alone may still fall from end to end.
+        std::vector<TimedRow> by_day = found;
+        for (TimedRow& row : by_day) row.time_us %= kYear;
+        const RowOrder order = put_in_order(by_day, false);
+        if (order.newest_first) {
+            note_order(order, rows);
+            return by_day;
+        }
+    }
+    note_order(put_in_order(found, false), rows);
+    return found;
+}
+
 double usual_step_h(Lines lines, const DatedRows& how)
 {
     std::vector<TimedRow> rows;
     Cells cells;
     while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
         split(*line, how.separator, cells, kMostCells);
         if (how.skip && how.skip(cells)) continue;
         if (const auto us = how.time_of(cells)) rows.push_back({*line, lines.number(), *us, true});

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_WEATHER_READERS_TABLE_ROWS_H
 #define PETRICHOR_WEATHER_READERS_TABLE_ROWS_H
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "weather/readers/csv_times.h"
+#include "weather/readers/plain_table.h"
 #include "weather/readers/tables.h"
 
 // Rows and cells of tables: what read_table_rows is made of, for readers that walk their rows by
@@ -38,6 +40,16 @@ struct DatedRow {
 /// newest row stands first is read from its end, a row that stands there again at once is read once.
 void for_dated_rows(Lines& lines, const DatedRows& how, RowCollector& rows,
                     const std::function<void(const DatedRow&)>& use);
+
+/// Year, month, day, hour and minute that a row writes, in the file's own clock.
+using RowDate = std::array<long long, 5>;
+/// The lines that are left, empty ones out, for readers that take them one by one: oldest first where they
+/// stand newest first from end to end, in a typical year by their days alone; a line that stands there
+/// again at once only once. What was done is noted.
+///   date_of  nothing: the line stays behind the one that it follows
+std::vector<TimedRow> oldest_first(
+    Lines& lines, const std::function<std::optional<RowDate>(std::string_view)>& date_of,
+    RowCollector& rows);
 
 /// The usual distance of the rows below a header, hours; rows out of order do not count.
 double usual_step_h(Lines lines, const DatedRows& how);

@@ -114,6 +114,35 @@ constexpr Name kNames[] = {
     {"snow", Field::Snow, Quantity::Precipitation},
     {"rainfall", Field::Rain, Quantity::Precipitation},
     {"rain", Field::Rain, Quantity::Precipitation},
+    // German tables.
+    {"windgeschwindigkeit", Field::Wind, Quantity::Speed},
+    {"windrichtung", Field::WindFrom, Quantity::Degrees},
+    {"lufttemperatur", Field::AirTemp, Quantity::Temperature},
+    {"au\xC3\x9F" "entemperatur", Field::AirTemp, Quantity::Temperature},
+    {"aussentemperatur", Field::AirTemp, Quantity::Temperature},
+    {"temperatur", Field::AirTemp, Quantity::Temperature},
+    {"taupunkttemperatur", Field::DewPoint, Quantity::Temperature},
+    {"taupunkt", Field::DewPoint, Quantity::Temperature},
+    {"relative_luftfeuchtigkeit", Field::RelHumidity, Quantity::Percent},
+    {"relative_luftfeuchte", Field::RelHumidity, Quantity::Percent},
+    {"relative_feuchte", Field::RelHumidity, Quantity::Percent},
+    {"luftfeuchtigkeit", Field::RelHumidity, Quantity::Percent},
+    {"luftfeuchte", Field::RelHumidity, Quantity::Percent},
+    {"luftdruck", Field::Pressure, Quantity::Pressure},
+    {"globalstrahlung", Field::Shortwave, Quantity::Flux},
+    {"diffusstrahlung", Field::Diffuse, Quantity::Flux},
+    {"gegenstrahlung", Field::Longwave, Quantity::Flux},
+    {"bew\xC3\xB6lkung", Field::Cloud, Quantity::Fraction},
+    {"bew\xF6lkung", Field::Cloud, Quantity::Fraction},
+    {"bewoelkung", Field::Cloud, Quantity::Fraction},
+    {"bedeckungsgrad", Field::Cloud, Quantity::Fraction},
+    {"schneeh\xC3\xB6he", Field::SnowDepth, Quantity::Length},
+    {"schneeh\xF6he", Field::SnowDepth, Quantity::Length},
+    {"schneehoehe", Field::SnowDepth, Quantity::Length},
+    {"sichtweite", Field::Visibility, Quantity::Length},
+    {"niederschlagsmenge", Field::Precip, Quantity::Precipitation},
+    {"niederschlag", Field::Precip, Quantity::Precipitation},
+    {"regen", Field::Rain, Quantity::Precipitation},
 };
 
 // Letters and digits only, lower case: "W/m²", "W m-2" and "w_m2" are the same unit.
@@ -208,7 +237,7 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
                 m.scale = 0.01;
             else if (is({"tenths"}))
                 m.scale = 0.1;
-            else if (is({"oktas", "okta"}))
+            else if (is({"oktas", "okta", "achtel"}))
                 m.scale = 0.125;
             else
                 return false;
@@ -237,7 +266,7 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
                 return true;
             }
             m.amount = true;
-            if (is({"", "mm", "kgm2"})) return true;
+            if (is({"", "mm", "kgm2", "lm2"})) return true;
             // Snow in centimetres or inches is fresh snow: 7 cm of it hold 10 mm of water (the
             // convention of weather services).
             if (is({"cm"}) && m.field == Field::Snow)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "film/weather/patch_weather.h"
 #include "scene/patches/patches.h"
@@ -23,6 +25,9 @@ constexpr float kReach_m = 80.0f;
 constexpr float kCell_m = 0.75f;
 constexpr std::uint32_t kMostPatches = 16000;
 constexpr int kRays = 1024;
+// Of them those within 75 degrees of where a sensor looks: the flat window of its pyrgeometer (CNR1: CG3)
+// sees a cone of 150 degrees. They come first, in the order of the sine's square.
+constexpr int kHeatRays = 955;
 constexpr int kSuns = 12;  // of an hour
 constexpr double kMostBeamRatio = 10.0;
 constexpr double kClear = 0.1;  // of cloud
@@ -34,12 +39,18 @@ constexpr std::array<glm::vec3, kUrbanFaces> kLooks{
 
 constexpr std::uint32_t kSky = 0xffffffffu, kOutside = 0xfffffffeu, kDark = 0xfffffffdu;
 
+// parametersforsolweig_*.json of the data, as the albedos are (urban_scene).
+constexpr std::pair<std::string_view, double> kEmissivity[] = {
+    {"asphalt", 0.95}, {"roof_tile", 0.95}, {"brick", 0.90}, {"lawn", 0.94}, {"soil", 0.94}};
+
 // What a sensor sees: cosine-weighted rays of equal weight, and the sky by the bits of a patch.
 struct Sensor {
     weather::Direction look;
     std::vector<std::uint32_t> seen;
     weather::SkyShares sky;
-    double sky_share = 0.0, outside_share = 0.0, ground_share = 0.0;
+    double sky_share = 0.0, outside_share = 0.0;
+    // Of what the pyrgeometer sees; the sky's mean of ln sec z.
+    double heat_sky = 0.0, heat_outside = 0.0, log_secant = 0.0, ground_share = 0.0;
     std::array<double, kUrbanFaces> wall_share{};  // by the side that they stand on
     double walls() const
     {
@@ -72,16 +83,19 @@ Sensor sensor_of(const scene::Patches& patches, const scene::Tracer& tracer, con
     for (int r = 0; r < kRays; ++r) {
         const glm::vec3 d = ray_of(look, r);
         const scene::RayHit hit = tracer.nearest({from, d});
+        const double heat = r < kHeatRays ? 1.0 / kHeatRays : 0.0;
         if (!hit.hit()) {
             s.seen.push_back(d.y > 0.0f ? kSky : kOutside);
             (d.y > 0.0f ? sky : outside) += 1.0 / kRays;
+            (d.y > 0.0f ? s.heat_sky : s.heat_outside) += heat;
+            if (d.y > 0.0f) s.log_secant -= heat * std::log(static_cast<double>(d.y));
             continue;
         }
         const glm::vec3 n = tracer.triangles().normal(hit.triangle);
         const auto patch = scene::patch_at(patches, tracer.triangles().point(hit.triangle, hit.at),
                                            hit.back ? -n : n);
         s.seen.push_back(patch.value_or(kDark));
-        (std::abs(n.y) > 0.5f ? s.ground_share : s.wall_share[side_of(d)]) += 1.0 / kRays;
+        (std::abs(n.y) > 0.5f ? s.ground_share : s.wall_share[side_of(d)]) += heat;
     }
     weather::VisibleBits bits{};
     for (int k = 0; k < weather::kVisibleBits; ++k) {
@@ -94,6 +108,7 @@ Sensor sensor_of(const scene::Patches& patches, const scene::Tracer& tracer, con
     s.sky = weather::sky_shares(bits, s.look);
     s.sky_share = sky;
     s.outside_share = outside;
+    s.log_secant = s.heat_sky > 0.0 ? s.log_secant / s.heat_sky : 0.5;
     return s;
 }
 
@@ -108,6 +123,10 @@ struct Town {
         const auto surfaces = scene::patch_surfaces(patches, triangles, {});
         sites = film::scene_sites(scene, patches, tracer, surfaces, {},
                                   weather::surface_preset("asphalt"));
+        for (weather::PatchKind& kind : sites.set.kinds) {
+            for (const auto& [name, emissivity] : kEmissivity)
+                if (kind.surface.name == name) kind.surface.emissivity = emissivity;
+        }
         for (std::size_t f = 0; f < kUrbanFaces; ++f)
             sensors[f] = sensor_of(patches, tracer, site.station_m, kLooks[f]);
     }
@@ -159,17 +178,17 @@ double measured_sky_w_m2(const Town& town, const UrbanHour& measured, double clo
     const auto& got = measured.longwave;
     const double air_w_m2 = weather::kStefanBoltzmann * std::pow(air_k, 4.0);
     const auto known = [&](const Sensor& s) {
-        return s.sky_share * weather::warm_horizon_w_m2(s.sky.log_secant, cloud, air_k) +
-               s.outside_share * air_w_m2 + s.ground_share * got[kFaceUp];
+        return s.heat_sky * weather::warm_horizon_w_m2(s.log_secant, cloud, air_k) +
+               s.heat_outside * air_w_m2 + s.ground_share * got[kFaceUp];
     };
     const Sensor& up = town.sensors[kFaceDown];
-    double left_w_m2 = got[kFaceDown] - known(up), share = up.sky_share;
+    double left_w_m2 = got[kFaceDown] - known(up), share = up.heat_sky;
     for (const std::size_t side : {kFaceNorth, kFaceEast, kFaceSouth, kFaceWest}) {
         const Sensor& s = town.sensors[side];
         if (!(up.wall_share[side] > 0.0) || !(s.walls() > 0.0)) continue;
         const double weight = up.wall_share[side] / s.walls();
         left_w_m2 -= weight * (got[side] - known(s));
-        share -= weight * s.sky_share;
+        share -= weight * s.heat_sky;
     }
     return left_w_m2 / share;
 }
@@ -226,21 +245,22 @@ std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, c
                              weather::sky_light_w_m2(diffuse, glow, seen) +
                              s.outside_share * params.outside_albedo * global;
             r.longwave[f] =
-                s.sky_share * (now(Field::Longwave) +
-                               weather::warm_horizon_w_m2(s.sky.log_secant, now(Field::Cloud), air_k)) +
-                s.outside_share * air_w_m2;
-            for (const std::uint32_t patch : s.seen) {
+                s.heat_sky * (now(Field::Longwave) +
+                              weather::warm_horizon_w_m2(s.log_secant, now(Field::Cloud), air_k)) +
+                s.heat_outside * air_w_m2;
+            for (std::size_t ray = 0; ray < s.seen.size(); ++ray) {
+                const std::uint32_t patch = s.seen[ray];
                 if (patch >= sent.size()) continue;
                 r.shortwave[f] += sent[patch] / kRays;
-                r.longwave[f] += heat[patch] / kRays;
+                if (ray < kHeatRays) r.longwave[f] += heat[patch] / kHeatRays;
             }
         }
         const Sensor& up = town.sensors[kFaceDown];
         if (now(Field::Cloud) < kClear) {
-            r.clear_sky_w_m2 = up.sky_share * (now(Field::Longwave) +
-                                               weather::warm_horizon_w_m2(
-                                                   up.sky.log_secant, now(Field::Cloud), air_k));
-            r.black_sky_w_m2 = up.sky_share * air_w_m2;
+            r.clear_sky_w_m2 = up.heat_sky * (now(Field::Longwave) +
+                                              weather::warm_horizon_w_m2(
+                                                  up.log_secant, now(Field::Cloud), air_k));
+            r.black_sky_w_m2 = up.heat_sky * air_w_m2;
             r.measured_sky_w_m2 = measured_sky_w_m2(town, measured, now(Field::Cloud), air_k);
             r.black_w_m2 = air_w_m2;
             r.ours_sky_w_m2 = now(Field::Longwave);

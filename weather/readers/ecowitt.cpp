@@ -1,0 +1,204 @@
+// Weather stations of Ecowitt and Fine Offset (Froggit, Ambient, Sainlogic and others sell them): what
+// their consoles and gateways write to a card, and EasyWeather. Names with units in brackets; the clock
+// of the console; rain as counts since the hour, day, week, month and year began.
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "weather/physics/constants.h"
+#include "weather/readers/csv_times.h"
+#include "weather/readers/formats.h"
+#include "weather/readers/rain_count.h"
+#include "weather/readers/table_rows.h"
+#include "weather/readers/tables.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+struct Unit {
+    const char* name;
+    double scale, offset;
+};
+constexpr Unit kTemp[] = {{"c", 1.0, kZeroCelsiusK},
+                          {"f", 5.0 / 9.0, kZeroCelsiusK - 32.0 * 5.0 / 9.0}},
+               kShare[] = {{"%", 1.0, 0.0}},
+               kSpeed[] = {{"m/s", 1.0, 0.0},
+                           {"km/h", 1.0 / 3.6, 0.0},
+                           {"mph", 0.44704, 0.0},
+                           {"knots", 1852.0 / 3600.0, 0.0},
+                           {"kn", 1852.0 / 3600.0, 0.0},
+                           {"fpm", 0.3048 / 60.0, 0.0},
+                           {"ft/s", 0.3048, 0.0}},
+               kPressure[] = {{"hpa", 100.0, 0.0},
+                              {"inhg", 3386.389, 0.0},
+                              {"mmhg", 133.322, 0.0},
+                              {"kpa", 1000.0, 0.0}},
+               kAmount[] = {{"mm", 1.0, 0.0}, {"in", 25.4, 0.0}}, kFlux[] = {{"w/m2", 1.0, 0.0}},
+               kDegrees[] = {{"", 1.0, 0.0}, {"deg", 1.0, 0.0}};
+struct Quantity {
+    const char* name;
+    Field field;
+    std::span<const Unit> units;
+    bool sea_level = false;
+};
+// Of several names for one field the first that a file has counts; of rain the longest count.
+constexpr Quantity kQuantities[] = {
+    {"outdoor temperature", Field::AirTemp, kTemp},
+    {"outdoor humidity", Field::RelHumidity, kShare},
+    {"dew point", Field::DewPoint, kTemp},
+    {"dewpoint", Field::DewPoint, kTemp},
+    {"outdoor dew point", Field::DewPoint, kTemp},
+    {"wind", Field::Wind, kSpeed},
+    {"wind speed", Field::Wind, kSpeed},
+    {"wind direction", Field::WindFrom, kDegrees},
+    {"direction", Field::WindFrom, kDegrees},
+    {"abs pressure", Field::Pressure, kPressure},
+    {"absolute pressure", Field::Pressure, kPressure},
+    {"absolute", Field::Pressure, kPressure},
+    {"rel pressure", Field::Pressure, kPressure, true},
+    {"relative pressure", Field::Pressure, kPressure, true},
+    {"solar rad", Field::Shortwave, kFlux},
+    {"solar and uvi solar", Field::Shortwave, kFlux},
+    {"yearly rain", Field::Precip, kAmount},
+    {"yearly", Field::Precip, kAmount},
+    {"total rainfall", Field::Precip, kAmount},
+    {"monthly rain", Field::Precip, kAmount},
+    {"month rainfall", Field::Precip, kAmount},
+    {"monthly", Field::Precip, kAmount},
+    {"weekly rain", Field::Precip, kAmount},
+    {"daily rain", Field::Precip, kAmount},
+    {"daily", Field::Precip, kAmount},
+};
+
+// "outdoor temperature(℃)": name and unit. The signs of degrees, which no two programs write the same,
+// become letters.
+struct Parts {
+    std::string name, unit;
+};
+Parts parts_of(const std::string& column)
+{
+    const std::size_t open = column.find('('), close = column.rfind(')');
+    Parts parts;
+    parts.name = std::string(trimmed(std::string_view(column).substr(0, open)));
+    if (open == column.npos || close == column.npos || close < open) return parts;
+    std::string unit = column.substr(open + 1, close - open - 1);
+    for (const auto& [sign, letter] : {std::pair{"\xE2\x84\x83", "c"}, {"\xE2\x84\x89", "f"}, {"\xC2\xB2", "2"}})
+        if (const auto at = unit.find(sign); at != unit.npos)
+            unit.replace(at, std::string_view(sign).size(), letter);
+    for (const char c : unit)
+        if (static_cast<unsigned char>(c) < 0x80 && c != '^' && c != ' ') parts.unit += c;
+    return parts;
+}
+
+struct Column {
+    std::size_t at;
+    const Quantity* quantity;
+    double scale, offset;
+};
+
+//   throws  Error for a unit that is not known
+std::vector<Column> columns_of(const TableHeader& header)
+{
+    std::vector<Column> out;
+    for (const Quantity& q : kQuantities) {
+        if (std::any_of(out.begin(), out.end(),
+                        [&](const Column& c) { return c.quantity->field == q.field; }))
+            continue;
+        for (const std::string& column : header.names()) {
+            const auto [name, unit] = parts_of(column);
+            if (name != q.name) continue;
+            const auto known = std::find_if(q.units.begin(), q.units.end(),
+                                            [&](const Unit& u) { return unit == u.name; });
+            // Light in lux is no sunlight in W/m2, and none is needed.
+            if (known == q.units.end() && q.field == Field::Shortwave) continue;
+            if (known == q.units.end())
+                throw Error("weather: Ecowitt: the unit '" + shown(unit) + "' of column '" +
+                                shown(column) + "' is not known",
+                            "Set the console to C, m/s, hPa and mm, and write the file again.");
+            out.push_back({header.at(column), &q, known->scale, known->offset});
+            break;
+        }
+    }
+    return out;
+}
+
+char separator_of(std::string_view line)
+{
+    char best = ',';
+    for (const char c : {';', '\t'})
+        if (std::count(line.begin(), line.end(), c) > std::count(line.begin(), line.end(), best))
+            best = c;
+    return best;
+}
+
+bool is_header(std::string_view line)
+{
+    const std::string low = lower(line);
+    return low.find("outdoor temperature(") != low.npos && low.find("time") != low.npos;
+}
+
+void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
+{
+    Lines lines(text);
+    const std::string_view names = lines.next().value_or("");
+    const char separator = separator_of(names);
+    const TableHeader header(names, separator);
+    const std::size_t stamp = header.at("time");
+    if (stamp == TableHeader::kNone)
+        throw Error("weather: Ecowitt: there is no column 'Time'",
+                    "Take the file as the console wrote it.");
+    const std::vector<Column> columns = columns_of(header);
+    rows.unread_columns(header.unread());
+    note_unknown_zone(rows, options, "that of the console, with summer time where it keeps it");
+    const DateOrder order = date_order_of(lines, separator, stamp, "Ecowitt", options);
+    for (const Column& c : columns) {
+        if (c.quantity->sea_level)
+            rows.note(ReadNote::Kind::Info, 0, "pressure",
+                      "given for sea level as the console is set, brought to the station where its "
+                      "elevation is known");
+        if (c.quantity->field == Field::Precip)
+            rows.note(ReadNote::Kind::Info, 0, "precip",
+                      std::string("what the count '") + c.quantity->name + "' rises by from row to row");
+    }
+    RainCount rain;
+    const DatedRows how{.separator = separator, .time_of = [&](const Cells& cells) {
+        return time_of_cell(cell_of(cells, stamp), order);
+    }};
+    for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
+        if (!rows.begin_row(row.time_us, row.line)) return;
+        for (const Column& c : columns) {
+            std::string cell(trimmed(cell_of(row.cells, c.at)));
+            if (separator != ',') std::replace(cell.begin(), cell.end(), ',', '.');
+            auto value = number_or_none(cell, {"--", "---", "--.-", "-"});
+            if (value && c.quantity->field == Field::WindFrom)
+                value = compass_deg(cell).value_or(*value);
+            if (c.quantity->field == Field::Precip) {
+                rain.put(value.value_or(kMissing) * c.scale, row.time_us, rows);
+                continue;
+            }
+            TableColumn column{{}, c.quantity->field, c.scale, c.offset};
+            if (value && c.quantity->sea_level) {
+                value = station_pressure_pa(*value * c.scale, options.site.elevation_m, kMissing);
+                column.scale = 1.0;
+            }
+            put_cell(column, cell, value, rows);
+        }
+    });
+}
+
+bool recognise(const FileHead& head)
+{
+    return is_header(head.first);
+}
+
+}  // namespace
+
+extern const Reader ecowitt_reader;
+const Reader ecowitt_reader{"Ecowitt", "stations of Ecowitt and Fine Offset, as their consoles write",
+                            recognise, read};
+
+}  // namespace petrichor::weather
