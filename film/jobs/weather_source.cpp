@@ -208,7 +208,9 @@ void make_artist(WeatherSource& source, weather::ForcingTable table, const Scena
 
 WeatherSource from_weather_file(const fs::path& file, const ScenarioWeather& options, double end_s)
 {
-    weather::ReadResult read = read_forcing(read_inputs({file.string()}), options.site);
+    // A grid is read at the place that is asked for.
+    const GridPlace place{options.site.latitude_deg, options.site.longitude_deg};
+    weather::ReadResult read = read_forcing(read_inputs({file.string()}, place), options.site);
     const FileClock clock = clock_of(options, read.table);
     WeatherSource source;
     source.name = printable(file.stem().string());

@@ -4,9 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "film/weather/packed.h"
 #include "film/weather/weather_input.h"
 #include "tests/support/program.h"
 
@@ -178,6 +183,75 @@ TEST(WeatherOfKeys, LoopsBeginAgainAndTheStateGoesOn)
     EXPECT_GT(loop.at(22.0).values.rain, 0.9f);
     EXPECT_GT(loop.at(22.0).values.flood_cracks, loop.at(2.0).values.flood_cracks) << "goes on";
     EXPECT_NEAR(loop.at(15.0).values.air_temperature_k, 283.15f, 1e-3f);
+}
+
+// A grid of ERA5 as classic NetCDF: hours, a northern and a southern row, a column.
+std::string grid_file(std::size_t hours)
+{
+    const auto number = [](std::uint64_t value, int bytes) {
+        std::string out;
+        for (int i = bytes - 1; i >= 0; --i) out += static_cast<char>(value >> (8 * i) & 255u);
+        return out;
+    };
+    const auto word = [&](const std::string& text) {
+        return number(text.size(), 4) + text + std::string((4 - text.size() % 4) % 4, '\0');
+    };
+    struct Variable {
+        std::string name, units;
+        std::vector<std::uint64_t> dims;
+        std::vector<double> values;
+    };
+    std::vector<Variable> all{{"valid_time", "seconds since 1970-01-01", {0}, {}},
+                              {"latitude", "degrees_north", {1}, {46.0, 45.0}},
+                              {"longitude", "degrees_east", {2}, {6.0}},
+                              {"t2m", "K", {0, 1, 2}, {}},
+                              {"d2m", "K", {0, 1, 2}, {}},
+                              {"tcc", "(0 - 1)", {0, 1, 2}, {}}};
+    for (std::size_t h = 0; h < hours; ++h) {
+        all[0].values.push_back(1718409600.0 + 3600.0 * static_cast<double>(h));
+        for (const double north : {0.0, 1.0}) {
+            all[3].values.push_back(280.0 + 8.0 * north);
+            all[4].values.push_back(278.0);
+            all[5].values.push_back(0.5);
+        }
+    }
+    std::string text = "CDF\x01" + number(0, 4) + number(10, 4) + number(3, 4);
+    for (const auto& [name, size] : {std::pair<std::string, std::size_t>{"valid_time", hours},
+                                     {"latitude", 2},
+                                     {"longitude", 1}})
+        text += word(name) + number(size, 4);
+    text += number(0, 8) + number(11, 4) + number(all.size(), 4);
+    std::size_t head = text.size();
+    for (const Variable& v : all)
+        head += word(v.name).size() + 4 + 4 * v.dims.size() + 8 + word("units").size() + 4 +
+                word(v.units).size() + 12;
+    std::string data;
+    for (const Variable& v : all) {
+        text += word(v.name) + number(v.dims.size(), 4);
+        for (const std::uint64_t dim : v.dims) text += number(dim, 4);
+        text += number(12, 4) + number(1, 4) + word("units") + number(2, 4) + word(v.units);
+        text += number(6, 4) + number(8 * v.values.size(), 4) + number(head + data.size(), 4);
+        for (const double value : v.values) {
+            std::uint64_t bits = 0;
+            std::memcpy(&bits, &value, 8);
+            data += number(bits, 8);
+        }
+    }
+    return text + data;
+}
+
+TEST_F(WeatherOfAFile, AGridIsReadAtThePlaceThatIsAskedFor)
+{
+    if (packed_kinds().find("NetCDF") == std::string::npos) GTEST_SKIP() << "built without NetCDF";
+    write_file(place_ / "era5.nc", grid_file(30));
+    options_.file = "era5.nc";
+    options_.site.longitude_deg = 6.0;
+    options_.site.latitude_deg = 45.75;
+    EXPECT_NEAR(source().at(3.0).values.air_temperature_k, 282.0, 1e-3);
+    options_.site.latitude_deg = 45.0;
+    EXPECT_NEAR(source().at(3.0).values.air_temperature_k, 288.0, 1e-3);
+    options_.site.latitude_deg = 50.0;
+    EXPECT_THROW(source(), Error) << "outside of it";
 }
 
 TEST(WeatherOfKeys, MayBeInSi)

@@ -147,6 +147,29 @@ TEST_F(Instances, OfOneShapeAreOneRun)
     EXPECT_EQ(runs(field(plain, true)).size(), 108u);
 }
 
+// Ground that goes round the eye would be shaded where boxes cover it, were it drawn before them.
+TEST_F(Instances, WhatGoesRoundTheEyeIsDrawnBehindWhatStandsInIt)
+{
+    if (!renderer) return;
+    renderer.reset();  // its device is not needed
+    const Device device(RendererOptions{.device = "", .validation = true});
+    const Material plain = plain_material(glm::vec3(0.5f));
+    Scene scene;
+    scene.materials = {plain, plain};
+    scene.meshes = {{"ground", {quad({-40, 0, 40}, {80, 0, 0}, {0, 0, -80})}}, corner()};
+    for (Primitive& side : scene.meshes[1].primitives) side.material = 1;
+    scene.instances.push_back({"ground", 0, glm::mat4(1.0f)});
+    for (const float away_m : {5.0f, 20.0f, 45.0f})
+        scene.instances.push_back({"box", 1, glm::translate(glm::mat4(1.0f), {0.0f, 0.0f, -away_m})});
+    const GpuScene on_device(device, scene, {});
+    const glm::mat4 all = glm::scale(glm::mat4(1.0f), glm::vec3(0.01f));
+    const std::vector<DrawRun> runs = visible_runs(on_device, all, glm::vec3(0.0f, 2.0f, 0.0f));
+    ASSERT_EQ(runs.size(), 10u);
+    // All of the boxes' sides are nearer than the ground is wide, and come near to far.
+    for (std::size_t i = 0; i < runs.size(); ++i) EXPECT_EQ(runs[i].first->material, i < 9 ? 1u : 0u) << i;
+    for (std::size_t i = 3; i < 9; ++i) EXPECT_LT(runs[i].first->centre_m.z, runs[i - 3].first->centre_m.z + 0.6f) << i;
+}
+
 TEST_F(Instances, OfOneShapeAreOneRunInDepthMaps)
 {
     if (!renderer) return;

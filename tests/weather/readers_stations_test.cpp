@@ -257,6 +257,22 @@ TEST(NewestFirst, ATypicalYearIsTurnedByItsDays)
     EXPECT_NEAR(raw(eve).table[Field::AirTemp][0], 274.15, 1e-9);
 }
 
+TEST(Surfrad, TheSampleHasItsColumnsInTheOrderOfTheReadme)
+{
+    const auto [table, report] = sample("radiation.dat");
+    EXPECT_EQ(report.format, "SURFRAD");
+    EXPECT_EQ(report.rows, 12u);
+    EXPECT_EQ(report.bad_rows, 0u);
+    const std::string noon = "2016-06-01T17:00Z";
+    EXPECT_NEAR(at(table, Field::Shortwave, noon), 862.2, 1e-9);
+    EXPECT_NEAR(at(table, Field::Longwave, noon), 349.2, 1e-9) << "not the temperature of the dome";
+    EXPECT_NEAR(at(table, Field::AirTemp, noon), 297.75, 1e-9);
+    EXPECT_NEAR(at(table, Field::Wind, noon), 3.1, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, noon), 99120.0, 1e-6);
+    EXPECT_TRUE(std::isnan(at(table, Field::Pressure, "2016-06-01T17:04Z")));
+    EXPECT_EQ(table.site.longitude_deg, -88.373);
+}
+
 // What the name of a column says cannot be checked, but winds that nowhere blow and steps that are those
 // of another unit can.
 TEST(WindUnit, KilometresAnHourUnderMetresASecondAreWarnedOf)
