@@ -142,27 +142,32 @@ void add_range_together(inout vec3 radiance, LitPoint p, LitGroup group, ivec2 t
     const uint lane = gl_SubgroupInvocationID;
     uvec2 here = listed_word(list, words, 1, first, end);
     uvec2 next = ONE_WORD ? uvec2(0u) : listed_word(list, words, 2, first, end);
-    for (int i = 3; (here.g | next.g) != 0u || (!ONE_WORD && !ONE_RANGE && i <= words); ++i) {
+    int i = 3;
+    // Loops that ask at their end: a CPU takes one that asks at its beginning once more, for nobody.
+    do {
         const uint count = ONE_WORD ? LIGHTS_AT_ONCE : uint(bitCount(here.g));
         const bool of_next = lane >= count;
         const uvec2 mine = of_next ? next : here;
         const uint own = without_lowest(mine.g, of_next ? lane - count : lane);
-        const int number = int(mine.r * 32u) + max(findLSB(own), 0);
-        const LightRow row = light_row(number);
+        const LightRow row = light_row(int(mine.r * 32u) + max(findLSB(own), 0));
         bool may = own != 0u;
         if (SIFTED) may = may && may_light(group, row, shadowed, shaped);
-        // Those that are left of the two.
+        // What is left of the two words.
         const bool spare = count >= LIGHTS_AT_ONCE;
         const uvec2 last = spare ? here : next;
         here = uvec2(last.r, without_lowest(last.g, spare ? LIGHTS_AT_ONCE : LIGHTS_AT_ONCE - count));
         if (!ONE_WORD) {
             const uvec2 later = listed_word(list, words, i, first, end);
             next = spare ? next : later;
-            i -= spare ? 1 : 0;
+            i += spare ? 0 : 1;
         }
-        for (uint rest = group_or(may ? 1u << lane : 0u); rest != 0u; rest &= rest - 1u)
-            radiance += punctual_light(p, row_of_lane(row, uint(findLSB(rest))), texel, shadowed, shaped);
-    }
+        uint rest = group_or(may ? 1u << lane : 0u);
+        do {
+            const LightRow light = row_of_lane(row, uint(max(findLSB(rest), 0)));
+            if (rest != 0u) radiance += punctual_light(p, light, texel, shadowed, shaped);
+            rest &= rest - 1u;
+        } while (rest != 0u);
+    } while ((here.g | next.g) != 0u || (!ONE_WORD && !ONE_RANGE && i <= words));
 }
 
 // Adds those of a range of the table that reach this tile, in their order.

@@ -207,9 +207,9 @@ void main()
                 RunOff off;
                 off.thick = kRunOffMean;
                 off.lean = vec2(0.0);
-                for (int once = 0; once < (runs > 0.0 ? 1 : 0); ++once)
+                if (runs > 0.0)
                     off = run_off(dot(position, along), position.y, frame.time_s, pixel_width_m(frame, view_m));
-                for (int once = 0; once < (wall > 0.0 ? 1 : 0); ++once) {
+                if (wall > 0.0) {
                     state.film = mix(state.film, soaked_share(state.film, dot(position, along), position.y), wall);
                     film.share *= film_not_drunk(wall, min(saturate(2.0 * frame.weather.rain) * off.thick / kRunOffMean, 2.0));
                 }
@@ -237,7 +237,7 @@ void main()
             closed = closed_water(state);
             // Cracks and bubbles, where any of a group is ice.
             const float ice = ICE != 0u ? closed * frame.weather.water_to_snow : 0.0;
-            for (int once = 0; once < (ice > 0.0 ? 1 : 0); ++once)
+            if (ice > 0.0)
                 m.albedo = patterned_ice(m.albedo, ice, ice_white(position.xz, v, pixel_width_m(frame, view_m) * inversesqrt(max(v.y, 0.05))));
             n = normalize(mix(n, g.cover_normal, m.normal_mix));
             if (TWO_LOBES) beside.normal = normalize(mix(beside.normal, g.cover_normal, m.normal_mix));
