@@ -681,7 +681,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(lit.x, lit.y, lit.z, lost_at(facet_loss(0.05f + 0.95f * c.z), c.w) + lost_in_all(c.z));
     }
     if (kind == 77) {
-        const vec3 passes = water_passes(0.5f * a.x * water_way(a.y));
+        const vec3 passes = standing_water_passes(c.x, 0.5f * a.x, water_way(a.y), 8.0f * c.y) + bottomless_water(2.0f * c.z);
         return vec4(passes.x, passes.y, passes.z, murk_hides(a.z, 0.2f * a.w, water_way(b.x)) + water_depth_of(water_depth_code(b.y)));
     }
     if (kind == 78) {

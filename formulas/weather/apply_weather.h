@@ -110,13 +110,14 @@ SHARED_FN WeatheredMaterial apply_water(WeatheredMaterial dry, vec2 film, float 
 }
 
 // Deep water over what it wets: the murk of a material grows with its depth, and rain water is not quite clear.
-SHARED_FN WeatheredMaterial apply_deep_water(WeatheredMaterial wet, vec4 water_color, float deeper_m, float way)
+// mud: as water_takes_per_m; water: the cover.
+SHARED_FN WeatheredMaterial apply_deep_water(WeatheredMaterial wet, vec4 water_color, float water, float deeper_m, float way, float mud)
 {
     const float hides = murk_hides(water_color.w, deeper_m, way);
-    const vec3 passes = water_passes(deeper_m * way);
+    const vec3 passes = standing_water_passes(water, deeper_m, way, mud);
     WeatheredMaterial deep = wet;
     deep.albedo = mix(wet.albedo, vec3(water_color.x, water_color.y, water_color.z), hides);
-    deep.albedo = mix(bottomless_water(), deep.albedo, passes);
+    deep.albedo = mix(bottomless_water(mud), deep.albedo, passes);
     const float seen = (1.0f - hides) * passes.y;
     deep.occlusion = mix(1.0f, wet.occlusion, seen);
     deep.emission_scale = wet.emission_scale * seen;
@@ -223,8 +224,9 @@ SHARED_FN WeatheredMaterial apply_weather(DryMaterial dry, SurfaceState state, W
                             mix(moment.film_smoothness, 0.65f, pouring) * state.film),
                     state.water, dry.water_color, dry.porosity);
     // A loop that ends at once where no water is deep: a CPU takes both sides of a branch.
-    for (int once = 0; once < (state.deeper_m > 0.0f ? 1 : 0); ++once)
-        m = apply_deep_water(m, dry.water_color, state.deeper_m, state.way);
+    const bool deep = state.deeper_m > 0.0f || (look.water_mud > 1.0f && state.water > 0.0f);
+    for (int once = 0; once < (deep ? 1 : 0); ++once)
+        m = apply_deep_water(m, dry.water_color, state.water, state.deeper_m, state.way, look.water_mud);
     m = apply_snow(m, state.snow, look.snow_color * melting_snow(state.snow, moment.melt_exp), look.snow_specular,
                    melting_smoothness(state.snow_smoothness, state.snow, moment.melt_exp), dry.snow_opacity);
     const float closed = closed_water(state);

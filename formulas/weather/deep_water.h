@@ -21,10 +21,18 @@ SHARED_CONST float kDeepestWater_m = 1.0f;
 // Ways down and back over the depth, in the mean of eyes that look down by 40 degrees.
 SHARED_CONST float kMeanWaterWay = 2.35f;
 
-// Taken on a metre: pure water and the fines of a street.
-SHARED_FN vec3 water_takes_per_m() { return vec3(0.264f + 6.6f, 0.057f + 8.2f, 0.010f + 10.8f); }
-// Albedo of a puddle whose ground is not seen.
-SHARED_FN vec3 bottomless_water() { return vec3(0.115f, 0.100f, 0.079f); }
+// Taken on a metre: by pure water, by the fines of a street.
+SHARED_FN vec3 pure_water_takes_per_m() { return vec3(0.264f, 0.057f, 0.010f); }
+SHARED_FN vec3 mud_takes_per_m() { return vec3(6.6f, 8.2f, 10.8f); }
+// mud: fines in the water over those of rain water in a street.
+SHARED_FN vec3 water_takes_per_m(float mud) { return pure_water_takes_per_m() + mud * mud_takes_per_m(); }
+// Albedo of a puddle whose ground is not seen: what it sends back are the fines, which are all that takes light from a mud of a tenth on.
+SHARED_FN vec3 bottomless_water(float mud)
+{
+    const vec3 fines = mud_takes_per_m();
+    const vec3 of_street = vec3(0.115f, 0.100f, 0.079f) * water_takes_per_m(1.0f) / fines;
+    return of_street * (mud * fines) / water_takes_per_m(mud);
+}
 
 // Ways down and back over the depth: daylight goes down at a mean of 1.2, what goes up to the eye is bent (n = 1.33).
 SHARED_FN float water_way(float eye_cosine)
@@ -34,10 +42,19 @@ SHARED_FN float water_way(float eye_cosine)
 }
 
 // Share of the light that passes so long a way.
-SHARED_FN vec3 water_passes(float way_m)
+SHARED_FN vec3 water_passes(float way_m, float mud)
 {
-    const vec3 takes = water_takes_per_m();
+    const vec3 takes = water_takes_per_m(mud);
     return vec3(exp(-takes.x * way_m), exp(-takes.y * way_m), exp(-takes.z * way_m));
+}
+
+// The same of all water at a place. water: its cover, which is 1 where it closes. Up to there the water of a street counts as clear, what
+// is muddier by the mud that it has more.
+SHARED_FN vec3 standing_water_passes(float water, float deeper_m, float way, float mud)
+{
+    const vec3 more = mud_takes_per_m() * (max(mud - 1.0f, 0.0f) * kClosedWater_m * water * way);
+    const vec3 passes = water_passes(deeper_m * way, mud);
+    return passes * vec3(exp(-more.x), exp(-more.y), exp(-more.z));
 }
 
 // How much of a murky water's colour hides what is below, where it has `opacity` when it closes (kClosedWater_m).

@@ -66,6 +66,7 @@ SHARED_FN WeatherLook usual_look()
     look.snow_line_ragged = 1.0f;
     look.snow_sparkle = 1.0f;
     look.ground_variation = 1.0f;
+    look.water_mud = 1.0f;
     look.ripple_tiling = 0.8f;
     look.ripple_speed = 1.0f;
     look.ripple_refraction = 0.05f;

@@ -81,6 +81,8 @@ struct WeatherLook {
     float snow_sparkle MOMENT_DEFAULT(1.0f);
     // How far the colour of wide ground varies from place to place: 0 nowhere, 1 as fields do.
     float ground_variation MOMENT_DEFAULT(1.0f);
+    // Mud in standing water over that of rain water in a street: 0 none, 20 a flood's.
+    float water_mud MOMENT_DEFAULT(1.0f);
     float ripple_tiling MOMENT_DEFAULT(0.8f);  // repeats per metre
     float ripple_speed MOMENT_DEFAULT(1.0f);   // 1 as photographed
     // How far a ring shifts what lies below, in texture coordinates a slope. Lux has 0.5, half a

@@ -4,7 +4,7 @@
 
 #include "gpu/frame/frame_io.h"
 
-#define FRAME_WORD_COUNT 239  // behind them FrameArrays begins, with its falls
+#define FRAME_WORD_COUNT 240  // behind them FrameArrays begins, with its falls
 #define FRAME_FALL_WORDS 19
 #define FRAME_SPEC_LANES 255  // of a CPU's subgroup, FrameTargets::lanes; 0: constants are read as they are
 // X(type, member)
@@ -31,7 +31,7 @@
     X(float, weather.longwave_down_w_m2) X(vec3, look.snow_color) X(vec3, look.snow_specular)                \
     X(vec4, look.snow_tiling) X(vec2, look.snow_strength) X(vec3, look.snow_scatter_color)                   \
     X(float, look.snow_scatter_bias) X(float, look.snow_scatter_contraction) X(float, look.snow_line_ragged) \
-    X(float, look.snow_sparkle) X(float, look.ground_variation) X(float, look.ripple_tiling)                 \
+    X(float, look.snow_sparkle) X(float, look.ground_variation) X(float, look.water_mud) X(float, look.ripple_tiling) \
     X(float, look.ripple_speed) X(float, look.ripple_refraction) X(float, look.ripple_strength)              \
     X(float, look.detail_distance_m) X(float, look.detail_fade_m) X(ivec2, size) X(ivec2, light_tiles)       \
     X(ivec2, coarse_tiles) X(uint, light_count) X(uint, light_words) X(uint, directional_count)              \

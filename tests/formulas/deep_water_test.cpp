@@ -16,22 +16,22 @@ WeatheredMaterial wet_stone(float albedo)
     return {glm::vec3(albedo), glm::vec3(0.02f), 0.9f, 0.7f, 1.0f, 1.0f, 0.0f};
 }
 
-glm::vec3 seen(float albedo, float deeper_m, float way = kMeanWaterWay)
+glm::vec3 seen(float albedo, float deeper_m, float mud = 1.0f)
 {
-    return apply_deep_water(wet_stone(albedo), glm::vec4(0.0f), deeper_m, way).albedo;
+    return apply_deep_water(wet_stone(albedo), glm::vec4(0.0f), 1.0f, deeper_m, kMeanWaterWay, mud).albedo;
 }
 
 TEST(DeepWater, PassesTheProductOfItsLayers)
 {
     for (const float a : {0.0f, 0.003f, 0.05f, 0.4f}) {
         for (const float b : {0.001f, 0.02f, 0.3f}) {
-            const glm::vec3 both = water_passes(a + b), apart = water_passes(a) * water_passes(b);
+            const glm::vec3 both = water_passes(a + b, 1.0f), apart = water_passes(a, 1.0f) * water_passes(b, 1.0f);
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(both[c], apart[c], 1e-6f);
             const float murk = 1.0f - murk_hides(0.3f, a + b, 2.0f);
             EXPECT_NEAR(murk, (1.0f - murk_hides(0.3f, a, 2.0f)) * (1.0f - murk_hides(0.3f, b, 2.0f)), 1e-6f);
         }
     }
-    EXPECT_EQ(water_passes(0.0f), glm::vec3(1.0f));
+    EXPECT_EQ(water_passes(0.0f, 1.0f), glm::vec3(1.0f));
     EXPECT_EQ(murk_hides(0.7f, 0.0f, 2.0f), 0.0f);
     EXPECT_EQ(murk_hides(0.0f, 1.0f, 2.0f), 0.0f);
 }
@@ -58,12 +58,12 @@ TEST(DeepWater, LiesBetweenTheGroundAndABottomlessPuddle)
         for (float deep_m = 0.002f; deep_m < 2.0f; deep_m *= 2.0f) {
             const glm::vec3 now = seen(albedo, deep_m);
             for (int c = 0; c < 3; ++c) {
-                EXPECT_LE(now[c], std::max(albedo, bottomless_water()[c]) + 1e-6f);
-                EXPECT_LE(std::abs(now[c] - bottomless_water()[c]), std::abs(from[c] - bottomless_water()[c]) + 1e-6f);
+                EXPECT_LE(now[c], std::max(albedo, bottomless_water(1.0f)[c]) + 1e-6f);
+                EXPECT_LE(std::abs(now[c] - bottomless_water(1.0f)[c]), std::abs(from[c] - bottomless_water(1.0f)[c]) + 1e-6f);
             }
             from = now;
         }
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(from[c], bottomless_water()[c], 1e-3f);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(from[c], bottomless_water(1.0f)[c], 1e-3f);
     }
 }
 
@@ -80,7 +80,7 @@ TEST(DeepWater, IsClearInAPuddleAndBrownInAPond)
 
 TEST(DeepWater, HidesWhatGlowsBelowIt)
 {
-    const auto deep = apply_deep_water(wet_stone(0.3f), glm::vec4(0.1f, 0.1f, 0.1f, 0.4f), 0.02f, kMeanWaterWay);
+    const auto deep = apply_deep_water(wet_stone(0.3f), glm::vec4(0.1f, 0.1f, 0.1f, 0.4f), 1.0f, 0.02f, kMeanWaterWay, 1.0f);
     EXPECT_LT(deep.emission_scale, 0.3f);
     EXPECT_GT(deep.occlusion, 0.9f);
 }
@@ -90,6 +90,33 @@ TEST(DeepWater, MurkGrowsFromWhatItIsWhereItCloses)
 {
     EXPECT_NEAR(murk_hides(0.4f, kClosedWater_m, kMeanWaterWay), 0.4f, 1e-5f);
     EXPECT_GT(murk_hides(1.0f, 0.01f, kMeanWaterWay), 0.999f);
+}
+
+// Mud hides the ground the more the more of it there is, in what has just closed too; without it deep water is dark and bluish.
+TEST(DeepWater, MudHidesTheGround)
+{
+    for (const float deep_m : {0.0f, 0.01f, 0.1f}) {
+        float before = 0.4f;
+        for (const float mud : {1.0f, 3.0f, 8.0f, 20.0f, 50.0f}) {
+            const glm::vec3 now = seen(0.4f, deep_m, mud);
+            if (mud == 1.0f && deep_m == 0.0f) {
+                EXPECT_EQ(now, glm::vec3(0.4f));
+            } else {
+                EXPECT_LT(now.g, before) << deep_m << " " << mud;
+            }
+            before = now.g;
+        }
+    }
+    const glm::vec3 flood = seen(0.4f, 0.01f, 20.0f);
+    EXPECT_LT(flood.g, 0.13f);
+    EXPECT_GT(flood.r / flood.b, 1.3f);
+    const glm::vec3 clear = seen(0.4f, 1.0f, 0.0f);
+    EXPECT_GT(clear.b, clear.r);
+    EXPECT_EQ(bottomless_water(0.0f), glm::vec3(0.0f));
+    EXPECT_GT(seen(0.4f, 0.1f, 0.2f).g, seen(0.4f, 0.1f).g);
+    // Half a cover is half as much water.
+    const glm::vec3 half = standing_water_passes(0.5f, 0.0f, 2.0f, 9.0f), whole = standing_water_passes(1.0f, 0.0f, 2.0f, 9.0f);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(half[c] * half[c], whole[c], 1e-6f);
 }
 
 TEST(DeepWater, IsKeptInEightBits)

@@ -70,7 +70,8 @@ CloudSeen cloud_seen(SkyParams sky, vec3 direction)
             float above = met.above;
             for (int heap = 0; heap < (tall > 0.0 ? 1 : 0); ++heap) {
                 const float rough = cloud_lumps(there, 2.2 * tall * met.up, 1.5 * footprint);
-                above += rough;
+                // A base is flat, what wells up from it is not.
+                above += rough * mix(0.4, 1.0, smoothstep(0.0, 0.25, met.up));
                 seen.crease = 1.0 - smoothstep(-0.05, 0.04, rough);
             }
             for (int flatly = 0; flatly < (tall > 0.0 ? 0 : 1); ++flatly) above = cloud_field(there, footprint, kCloudOctaves) - edge;
@@ -104,7 +105,10 @@ vec3 cloud_radiance(SkyParams sky, vec3 direction, CloudSeen cloud, vec3 clear_z
     // it is thick.
     const float towards = max(dot(direction, sky.sun_direction), 0.0);
     const float thin = exp(-2.2 * cloud.depth);
-    const float reached = (0.09 + 0.91 * exp(-3.2 * cloud.sunward)) * (1.0 - 0.3 * cloud.crease);
+    // What is met at its base is lit through all of the heap above, its flanks are not.
+    const float heaps = cloud_tall(c) / cloud_tall(0.0);
+    const float below = 1.0 - 0.5 * heaps * (1.0 - thin) * (1.0 - smoothstep(0.0, 0.3, cloud.up));
+    const float reached = below * (0.09 + 0.91 * exp(-3.2 * cloud.sunward)) * (1.0 - 0.3 * cloud.crease);
     const vec3 lit = sky.sun_at_ground * reached *
                          (0.26 + thin * (0.06 + 0.45 * pow(towards, 10.0) + 1.2 * pow(towards, 80.0))) +
                      sky.clear_level * ((0.35 + 0.3 * cloud.up) / 3.14159265) + sky.ground_radiance * 0.25 + clear_zenith * 0.3;
