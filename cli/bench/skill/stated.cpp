@@ -183,9 +183,9 @@ constexpr StatedScore kStated[] = {
     {"kronenhuset", "K down", 14.3, 3.0, kNoScore},
     {"kronenhuset", "K up", 5.54, 1.0, kNoScore},
     {"kronenhuset", "K of the sides", 39.5, 3.0, kNoScore},
-    {"kronenhuset", "L down", 24.9, 2.0, kNoScore},
+    {"kronenhuset", "L down", 22.3, 2.0, kNoScore},
     {"kronenhuset", "L up", 7.68, 1.0, kNoScore},
-    {"kronenhuset", "L of the sides", 8.63, 1.0, kNoScore},
+    {"kronenhuset", "L of the sides", 7.57, 1.0, kNoScore},
 };
 
 }  // namespace
