@@ -115,7 +115,7 @@ TEST(Skill, CoupledRoadsAreNearerThanTheAir)
     }
 }
 
-// From one measured value alone, too, on all roads but case042, in heavy rain between mountains.
+// From one measured value alone, too, on all roads.
 TEST(Skill, RoadsFromOneStartAreNearerThanTheAir)
 {
     NEED_ASSETS(assets);
@@ -124,7 +124,6 @@ TEST(Skill, RoadsFromOneStartAreNearerThanTheAir)
         const std::string& set = road.ours.set;
         if (road.ours.quantity != "road started, all ahead" || set.rfind("mean", 0) == 0) continue;
         ++roads;
-        if (set == "case042") continue;
         for (const BoardRow& air : board_of(assets).rows) {
             if (air.ours.set == set && air.ours.quantity == "air, all ahead") {
                 EXPECT_LT(road.ours.score, air.ours.score) << set;
@@ -146,7 +145,7 @@ TEST(Skill, RadiationInATownIsNearerThanSolweigs)
     };
     EXPECT_LT(score("kronenhuset", "K down"), 45.0);
     EXPECT_LT(score("kronenhuset", "L up"), 13.0);
-    EXPECT_LT(score("kronenhuset", "L down"), 26.0);
+    EXPECT_LT(score("kronenhuset", "L down"), 23.5);
     EXPECT_LT(score("gustav_adolfs", "K down"), 150.0);
     EXPECT_LT(score("gustav_adolfs", "L down"), 28.0);
     EXPECT_LT(score("champaign_1998_half_hourly", "wetness"), 0.5) << "kappa";
@@ -395,6 +394,26 @@ TEST(UrbanRadiation, OfAPlainIsThatOfTheOpen)
     EXPECT_LT(s.shortwave[kFaceUp], 0.3 * r.shortwave[kFaceUp]);
     EXPECT_LT(s.longwave[kFaceUp], r.longwave[kFaceUp] - 30.0) << "ground in the shade is cool";
     EXPECT_GT(s.longwave[kFaceDown], r.longwave[kFaceDown] + 5.0);
+}
+
+// A pane keeps nothing: what it takes of the sun, sky and room it gives to the air.
+TEST(UrbanRadiation, AWindowBalancesWhatItTakesAndGives)
+{
+    const auto left_w_m2 = [](const WindowAir& w) {
+        const double k = window_k(w), out = 5.670374419e-8 * std::pow(k, 4.0);
+        return 0.15 * w.sun_w_m2 + 0.84 * (w.heat_w_m2 - out) + (4.0 + 4.0 * w.wind_m_s) * (w.air_k - k) +
+               3.2 * (w.room_k - k);
+    };
+    const WindowAir noon{.sun_w_m2 = 750.0, .heat_w_m2 = 350.0, .wind_m_s = 1.0, .air_k = 292.0},
+        night{.heat_w_m2 = 280.0, .wind_m_s = 0.5, .air_k = 278.0};
+    EXPECT_NEAR(left_w_m2(noon), 0.0, 1.0);
+    EXPECT_NEAR(left_w_m2(night), 0.0, 1.0);
+    EXPECT_GT(window_k(noon), 292.0 + 2.0);
+    EXPECT_LT(window_k(noon), 292.0 + 8.0) << "brick there is 25 K warmer than the air";
+    EXPECT_GT(window_k({.heat_w_m2 = 280.0, .air_k = 278.0, .room_k = 293.0}),
+              window_k({.heat_w_m2 = 280.0, .air_k = 278.0, .room_k = 278.0}));
+    EXPECT_NEAR(window_w_m2(noon), 0.84 * 5.670374419e-8 * std::pow(window_k(noon), 4.0) + 0.16 * 350.0,
+                1e-9);
 }
 
 // A window that sees 75 degrees from the zenith sees nothing of a house that is 14 degrees high; the

@@ -60,7 +60,8 @@ void expect_same(const ReadResult& a, const ReadResult& b)
         const auto &x = a.table.columns[f], &y = b.table.columns[f];
         ASSERT_EQ(x.size(), y.size()) << f;
         for (std::size_t i = 0; i < x.size(); ++i)
-            EXPECT_TRUE(x[i] == y[i] || (std::isnan(x[i]) && std::isnan(y[i]))) << f << " row " << i;
+            EXPECT_TRUE(x[i] == y[i] || (std::isnan(x[i]) && std::isnan(y[i])))
+                << f << " row " << i;
     }
 }
 
@@ -77,7 +78,8 @@ TEST(Ecowitt, CountsOfRainBecomeWhatFell)
     EXPECT_NEAR(at(table, Field::RelHumidity, five_to), 93.0, 1e-9) << "that of the air outside";
     EXPECT_NEAR(at(table, Field::Wind, five_to), 2.0, 1e-9);
     EXPECT_NEAR(at(table, Field::WindFrom, five_to), 251.0, 1e-9);
-    EXPECT_NEAR(at(table, Field::Pressure, five_to), 96240.0, 1e-6) << "of the station, not of the sea";
+    EXPECT_NEAR(at(table, Field::Pressure, five_to), 96240.0, 1e-6)
+        << "of the station, not of the sea";
     // 812.4 to 812.7 in the five minutes before 23:55: in the row of 23:50.
     EXPECT_NEAR(at(table, Field::Precip, "2024-10-31T22:50Z") * 300.0, 0.3, 1e-9);
     EXPECT_NEAR(total(table, Field::Precip), 0.9, 1e-9);
@@ -101,7 +103,8 @@ TEST(Ecowitt, ACountThatBeginsAgainBeginsFromNothing)
 TEST(Ecowitt, UnitsAreThoseOfTheNamesAndUnknownOnesAreRefused)
 {
     const std::string text = corpus("ecowitt.csv");
-    const std::string f = with(text, "Outdoor Temperature(\xE2\x84\x83)", "Outdoor Temperature(\xE2\x84\x89)");
+    const std::string f =
+        with(text, "Outdoor Temperature(\xE2\x84\x83)", "Outdoor Temperature(\xE2\x84\x89)");
     EXPECT_NEAR(raw(f).table[Field::AirTemp][0], 273.15 + (8.1 - 32.0) / 1.8, 1e-9);
     EXPECT_NEAR(raw(with(text, "Wind(km/h)", "Wind(m/s)")).table[Field::Wind][0], 10.8, 1e-9);
     EXPECT_NEAR(raw(with(text, "Wind(km/h)", "Wind(knots)")).table[Field::Wind][0], 5.556, 1e-9);
@@ -142,9 +145,9 @@ TEST(WeatherUnderground, WithoutTheClockOfGreenwichItsOwnCounts)
     options.utc_offset_h = -8.0;
     EXPECT_EQ(raw(text, options).table.time_us, sample("wunderground.csv").table.time_us);
     // Metric tables of the same page.
-    const std::string metric = with(
-        with(with(text, "TemperatureF", "TemperatureC"), "WindSpeedMPH", "WindSpeedKMH"),
-        "dailyrainin", "dailyrainMM");
+    const std::string metric =
+        with(with(with(text, "TemperatureF", "TemperatureC"), "WindSpeedMPH", "WindSpeedKMH"),
+             "dailyrainin", "dailyrainMM");
     EXPECT_NEAR(raw(metric).table[Field::AirTemp][0], 323.15, 1e-9);
     EXPECT_NEAR(raw(metric).table[Field::Wind][0], 5.0 / 3.6, 1e-9);
     EXPECT_NEAR(total(raw(metric).table, Field::Precip), 0.05, 1e-9);
@@ -191,12 +194,14 @@ TEST(Seklima, NorwegianHoursOfNormalTime)
     EXPECT_NEAR(at(table, Field::Precip, seven) * 3600.0, 0.4, 1e-9);
     EXPECT_TRUE(std::isnan(at(table, Field::Wind, "2024-01-16T08:00Z")));
     std::string english = corpus("seklima.csv");
-    english = with(english, "Navn;Stasjon;Tid(norsk normaltid);Lufttemperatur;Nedb\xC3\xB8r (1 t);Middelvind",
-                   "Name;Station;Time(norwegian mean time);Air temperature;Precipitation (1 h);Mean wind speed");
+    english = with(
+        english, "Navn;Stasjon;Tid(norsk normaltid);Lufttemperatur;Nedb\xC3\xB8r (1 t);Middelvind",
+        "Name;Station;Time(norwegian mean time);Air temperature;Precipitation (1 h);Mean wind "
+        "speed");
     EXPECT_NEAR(at(raw(english).table, Field::Precip, seven) * 3600.0, 0.4, 1e-9);
     EXPECT_NEAR(at(raw(english).table, Field::Wind, seven), 1.7, 1e-9);
-    const std::string days = with(with(with(corpus("seklima.csv"), "(1 t)", "(d\xC3\xB8gn)"), "Lufttemperatur;",
-                                       "Middeltemperatur (d\xC3\xB8gn);"),
+    const std::string days = with(with(with(corpus("seklima.csv"), "(1 t)", "(d\xC3\xB8gn)"),
+                                       "Lufttemperatur;", "Middeltemperatur (d\xC3\xB8gn);"),
                                   "Middelvind", "Middelvind (d\xC3\xB8gn)");
     EXPECT_FALSE(raw(days).table.has(Field::AirTemp)) << "a mean of a day is no hour's";
 }
@@ -207,12 +212,15 @@ TEST(NewestFirst, ArchivesAreReadFromTheirEnd)
         const char* name;
         std::size_t head;
     };
-    for (const File& file : {File{"isd_lite.txt", 0}, {"snow_station.smet", 0}, {"typical_year.epw", 8},
+    for (const File& file : {File{"isd_lite.txt", 0},
+                             {"snow_station.smet", 0},
+                             {"typical_year.epw", 8},
                              {"nsrdb.csv", 3}}) {
         std::string text = corpus(file.name);
         // The sample's two rows are of a typical year.
         if (file.head == 3)
-            text = text.substr(0, text.find("2009,")) + "2017,2,1,0,0,0,-9,781,0.5,0,,\n"
+            text = text.substr(0, text.find("2009,")) +
+                   "2017,2,1,0,0,0,-9,781,0.5,0,,\n"
                    "2018,1,31,23,30,0,-8,780,0.3,0,,\n";
         std::size_t head = file.head;
         if (std::string(file.name).ends_with("smet")) {
@@ -242,7 +250,8 @@ TEST(NewestFirst, ATypicalYearIsTurnedByItsDays)
     for (const char* day : {"2004,2,27", "2004,2,28", "1998,3,1", "2011,4,1"}) {
         for (int hour = 1; hour <= 24; ++hour)
             rows.push_back(std::string(day) + "," + std::to_string(hour) + ",60,?9,1." +
-                           std::to_string(hour) + ",0.5,90,95000,0,0,300,0,0,0,0,0,0,0,180,2,5,5,10.0\n");
+                           std::to_string(hour) +
+                           ",0.5,90,95000,0,0,300,0,0,0,0,0,0,0,180,2,5,5,10.0\n");
     }
     std::string down = head, up = head;
     for (const std::string& row : rows) down += row;
@@ -252,8 +261,10 @@ TEST(NewestFirst, ATypicalYearIsTurnedByItsDays)
     EXPECT_TRUE(b.report.typical_year);
     expect_same(a, b);
     // Two rows over New Year's Eve in their order are in order.
-    const std::string eve = head + "2004,12,31,24,60,?9,1,0.5,90,95000,0,0,300,0,0,0,0,0,0,0,180,2,5,5,10.0\n"
-                                   "2005,1,1,1,60,?9,2,0.5,90,95000,0,0,300,0,0,0,0,0,0,0,180,2,5,5,10.0\n";
+    const std::string eve =
+        head +
+        "2004,12,31,24,60,?9,1,0.5,90,95000,0,0,300,0,0,0,0,0,0,0,180,2,5,5,10.0\n"
+        "2005,1,1,1,60,?9,2,0.5,90,95000,0,0,300,0,0,0,0,0,0,0,180,2,5,5,10.0\n";
     EXPECT_NEAR(raw(eve).table[Field::AirTemp][0], 274.15, 1e-9);
 }
 
@@ -273,8 +284,8 @@ TEST(Surfrad, TheSampleHasItsColumnsInTheOrderOfTheReadme)
     EXPECT_EQ(table.site.longitude_deg, -88.373);
 }
 
-// What the name of a column says cannot be checked, but winds that nowhere blow and steps that are those
-// of another unit can.
+// What the name of a column says cannot be checked, but winds that nowhere blow and steps that are
+// those of another unit can.
 TEST(WindUnit, KilometresAnHourUnderMetresASecondAreWarnedOf)
 {
     const auto notes_of = [](const char* name, double scale, double digit, double mean) {

@@ -11,6 +11,7 @@
 #include "weather/physics/humidity.h"
 #include "weather/readers/metro_xml.h"
 #include "weather/readers/read_weather.h"
+#include "weather/readers/text.h"
 
 namespace petrichor::weather {
 namespace {
@@ -143,6 +144,62 @@ TEST(Road, TheMeasuredStartIsTakenAsItIs)
     EXPECT_NEAR(c.ground_temp_c[6], 8.0, 0.5);
     const std::vector<double> none{kMissing, kMissing, kMissing};
     EXPECT_THROW(observed_start(t, p, {times, none, below, 0.4}), Error);
+}
+
+// Of the wave of a day: it is conducted as the ground conducts, and the surface gives and takes
+// what the sun drives it by.
+TEST(Road, TheWaveOfADayIsThatOfTheSunOnAHalfSpace)
+{
+    const Surface road = surface_preset("road");
+    const std::int64_t july = *us_from_iso("2006-07-12T00:00Z"),
+                       december = *us_from_iso("2006-12-12T00:00Z");
+    const DayWave w = day_wave(road, 40.0, july, 0.0);
+    EXPECT_NEAR(w.damping_m, 0.102, 0.001);
+    EXPECT_GT(w.warmest_s, 12.5 * 3600.0);
+    EXPECT_LT(w.warmest_s, 14.0 * 3600.0);
+    EXPECT_GT(w.amplitude_k, 10.0);
+    EXPECT_LT(w.amplitude_k, 20.0);
+    EXPECT_LT(day_wave(road, 40.0, december, 0.0).amplitude_k, 0.6 * w.amplitude_k);
+    EXPECT_LT(day_wave(road, 40.0, july, 1.0).amplitude_k, 0.3 * w.amplitude_k);
+    EXPECT_EQ(day_wave(road, 80.0, december, 0.0).amplitude_k, 0.0) << "night all day";
+    const double k = road.layers[0].conductivity_w_m_k, c = road.layers[0].heat_capacity_j_m3_k;
+    for (const double s : {3.0 * 3600.0, 12.0 * 3600.0, 19.0 * 3600.0}) {
+        const double z = 0.05, dz = 1e-3, dt = 30.0;
+        const double bend = (w.at(z + dz, s) - 2.0 * w.at(z, s) + w.at(z - dz, s)) / (dz * dz);
+        const double rise = (w.at(z, s + dt) - w.at(z, s - dt)) / (2.0 * dt);
+        EXPECT_NEAR(c * rise, k * bend, 0.01 * c * w.amplitude_k * 7.3e-5) << s;
+    }
+    // What goes down and back at noon is in phase with the sun: half a turn later the same goes the
+    // other way.
+    const auto driven = [&](double s) {
+        return k * (w.at(0.0, s) - w.at(1e-4, s)) / 1e-4 + 20.0 * w.at(0.0, s);
+    };
+    EXPECT_NEAR(driven(0.5 * 86400.0), -driven(0.0), 0.5);
+    EXPECT_NEAR(driven(0.25 * 86400.0), 0.0, 0.01 * driven(0.5 * 86400.0)) << "nothing at six";
+}
+
+// Where the sun has made the surface warm by noon, its warmth has not gone far down; a place
+// without a longitude has METRo's line.
+TEST(Road, TheFirstProfileHasTheWaveOfTheDay)
+{
+    PhysicalParams p;
+    p.surface = surface_preset("road");
+    ForcingTable t = steady(290.15, 0, 300, 0, 24);
+    t.site.latitude_deg = 45.0;
+    t.site.longitude_deg = 0.0;
+    t[Field::Cloud].assign(t.rows(), 0.0);
+    const std::int64_t noon = *us_from_iso("2006-07-12T13:00Z");
+    const std::vector<std::int64_t> times{noon};
+    const std::vector<double> surface{40.0}, below{25.0};
+    const auto start = [&](FirstProfile first) {
+        return observed_start(t, p, {times, surface, below, 0.4}, first);
+    };
+    const CellState line = start(FirstProfile::Line), wave = start(FirstProfile::DayAndLine);
+    EXPECT_NEAR(line.ground_temp_c[3], 40.0 - 15.0 * 0.11 / 0.4, 0.01);  // 0.07 to 0.15 m
+    EXPECT_LT(wave.ground_temp_c[3], line.ground_temp_c[3] - 3.0);
+    EXPECT_EQ(wave.surface_temp_c, 40.0);
+    t.site.longitude_deg = kMissing;
+    EXPECT_EQ(start(FirstProfile::DayAndLine).ground_temp_c[3], line.ground_temp_c[3]);
 }
 
 TEST(Friction, FallsWithWhatLiesThere)
@@ -330,8 +387,8 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     EXPECT_EQ(observed_weather(dry, silent)[Field::Cloud][0], 0.5);
 }
 
-// A forecast begins with the mean of its first three hours, and one that snows out of a clear sky has
-// left its clouds out.
+// A forecast begins with the mean of its first three hours, and one that snows out of a clear sky
+// has left its clouds out.
 TEST(Metro, CloudsWithWhichAForecastBegins)
 {
     const auto measure = [](const char* minute) {
@@ -339,9 +396,9 @@ TEST(Metro, CloudsWithWhichAForecastBegins)
                "Z</observation-time><at>-5</at><td>-6</td><ws>18</ws><st>-3</st><sst>-1</sst>"
                "</measure>";
     };
-    const MetroObservation o = read_metro_observation(
-        "<observation><measure-list>" + measure("50") + measure("59") +
-        "</measure-list></observation>");
+    const MetroObservation o =
+        read_metro_observation("<observation><measure-list>" + measure("50") + measure("59") +
+                               "</measure-list></observation>");
     const auto forecast_of = [](const std::vector<double>& cc, double snow_cm_h) {
         std::string text = "<forecast><prediction-list>";
         for (std::size_t i = 0; i < cc.size(); ++i)
@@ -370,7 +427,8 @@ TEST(Metro, CloudsWithWhichAForecastBegins)
     EXPECT_NE(to_text(read.report).find("out of a clear sky in 3 rows"), std::string::npos);
 }
 
-// Rain of measured hours: the station's word, where its air can be that of rain, before the forecast's.
+// Rain of measured hours: the station's word, where its air can be that of rain, before the
+// forecast's.
 TEST(Metro, RainOfTheMeasuredHours)
 {
     constexpr double kMm_h = 1.0 / 3600.0;
@@ -378,10 +436,10 @@ TEST(Metro, RainOfTheMeasuredHours)
         const char *air, *dew, *pi;
         double forecast_mm_h, rain_mm_h;
     };
-    constexpr Row kRows[] = {{"9", "8.5", "1", 0.0, 1.0},    {"9", "8.5", "1", 3.0, 3.0},
-                             {"9", "6", "1", 0.0, 0.0},      {"1", "0.9", "1", 0.0, 0.0},
-                             {"9", "8.5", "0", 3.0, 0.0},    {"9", "8.5", "9999", 0.5, 0.5},
-                             {"9", "9999", "1", 0.5, 0.5},   {"9", "8.5", "9999", 0.0, 0.0}};
+    constexpr Row kRows[] = {{"9", "8.5", "1", 0.0, 1.0},  {"9", "8.5", "1", 3.0, 3.0},
+                             {"9", "6", "1", 0.0, 0.0},    {"1", "0.9", "1", 0.0, 0.0},
+                             {"9", "8.5", "0", 3.0, 0.0},  {"9", "8.5", "9999", 0.5, 0.5},
+                             {"9", "9999", "1", 0.5, 0.5}, {"9", "8.5", "9999", 0.0, 0.0}};
     std::string text = "<observation><measure-list>";
     int hour = 0;
     for (const Row& row : kRows)

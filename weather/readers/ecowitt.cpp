@@ -1,6 +1,6 @@
-// Weather stations of Ecowitt and Fine Offset (Froggit, Ambient, Sainlogic and others sell them): what
-// their consoles and gateways write to a card, and EasyWeather. Names with units in brackets; the clock
-// of the console; rain as counts since the hour, day, week, month and year began.
+// Weather stations of Ecowitt and Fine Offset (Froggit, Ambient, Sainlogic and others sell them):
+// what their consoles and gateways write to a card, and EasyWeather. Names with units in brackets;
+// the clock of the console; rain as counts since the hour, day, week, month and year began.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -74,8 +74,8 @@ constexpr Quantity kQuantities[] = {
     {"daily", Field::Precip, kAmount},
 };
 
-// "outdoor temperature(℃)": name and unit. The signs of degrees, which no two programs write the same,
-// become letters.
+// "outdoor temperature(℃)": name and unit. The signs of degrees, which no two programs write the
+// same, become letters.
 struct Parts {
     std::string name, unit;
 };
@@ -86,7 +86,8 @@ Parts parts_of(const std::string& column)
     parts.name = std::string(trimmed(std::string_view(column).substr(0, open)));
     if (open == column.npos || close == column.npos || close < open) return parts;
     std::string unit = column.substr(open + 1, close - open - 1);
-    for (const auto& [sign, letter] : {std::pair{"\xE2\x84\x83", "c"}, {"\xE2\x84\x89", "f"}, {"\xC2\xB2", "2"}})
+    for (const auto& [sign, letter] :
+         {std::pair{"\xE2\x84\x83", "c"}, {"\xE2\x84\x89", "f"}, {"\xC2\xB2", "2"}})
         if (const auto at = unit.find(sign); at != unit.npos)
             unit.replace(at, std::string_view(sign).size(), letter);
     for (const char c : unit)
@@ -161,13 +162,14 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                       "given for sea level as the console is set, brought to the station where its "
                       "elevation is known");
         if (c.quantity->field == Field::Precip)
-            rows.note(ReadNote::Kind::Info, 0, "precip",
-                      std::string("what the count '") + c.quantity->name + "' rises by from row to row");
+            rows.note(
+                ReadNote::Kind::Info, 0, "precip",
+                std::string("what the count '") + c.quantity->name + "' rises by from row to row");
     }
     RainCount rain;
     const DatedRows how{.separator = separator, .time_of = [&](const Cells& cells) {
-        return time_of_cell(cell_of(cells, stamp), order);
-    }};
+                            return time_of_cell(cell_of(cells, stamp), order);
+                        }};
     for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         if (!rows.begin_row(row.time_us, row.line)) return;
         for (const Column& c : columns) {
@@ -198,7 +200,7 @@ bool recognise(const FileHead& head)
 }  // namespace
 
 extern const Reader ecowitt_reader;
-const Reader ecowitt_reader{"Ecowitt", "stations of Ecowitt and Fine Offset, as their consoles write",
-                            recognise, read};
+const Reader ecowitt_reader{
+    "Ecowitt", "stations of Ecowitt and Fine Offset, as their consoles write", recognise, read};
 
 }  // namespace petrichor::weather

@@ -1,6 +1,6 @@
-// GeoSphere Austria, CSV of its data hub (time,station,rr,tl,..): hours (klima-v2-1h) and ten minutes
-// (klima-v2-10min, TAWES). Times are UTC and end what is averaged or summed; one station a file, or
-// several. Columns ..._flag tell how values were checked.
+// GeoSphere Austria, CSV of its data hub (time,station,rr,tl,..): hours (klima-v2-1h) and ten
+// minutes (klima-v2-10min, TAWES). Times are UTC and end what is averaged or summed; one station a
+// file, or several. Columns ..._flag tell how values were checked.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -40,16 +40,18 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     const std::size_t stamp = header.at("time"), station = header.at("station");
     std::vector<std::pair<std::size_t, const TableColumn*>> columns;
     for (const TableColumn& c : kColumns) {
-        const bool taken = std::any_of(columns.begin(), columns.end(),
-                                       [&](const auto& other) { return other.second->field == c.field; });
+        const bool taken = std::any_of(columns.begin(), columns.end(), [&](const auto& other) {
+            return other.second->field == c.field;
+        });
         if (!taken && header.has(c.name)) columns.emplace_back(header.at(c.name), &c);
     }
     std::vector<std::string> unread = header.unread();
     std::erase_if(unread, [](const std::string& name) { return name.ends_with("_flag"); });
     rows.unread_columns(unread);
     rows.times_name_their_zone();
-    rows.note(ReadNote::Kind::Info, 0, "place",
-              "the place of the station is not in the file: give latitude, longitude and elevation");
+    rows.note(
+        ReadNote::Kind::Info, 0, "place",
+        "the place of the station is not in the file: give latitude, longitude and elevation");
     std::string chosen = options.station;
     bool others = false, any = false;
     const DatedRows how{
@@ -98,7 +100,7 @@ bool recognise(const FileHead& head)
 }  // namespace
 
 extern const Reader geosphere_reader;
-const Reader geosphere_reader{"GeoSphere Austria", "data hub of GeoSphere Austria, hours or ten minutes",
-                              recognise, read};
+const Reader geosphere_reader{
+    "GeoSphere Austria", "data hub of GeoSphere Austria, hours or ten minutes", recognise, read};
 
 }  // namespace petrichor::weather

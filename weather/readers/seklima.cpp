@@ -1,6 +1,7 @@
-// MET Norway, CSV of seklima.met.no: Navn;Stasjon;Tid(norsk normaltid);Lufttemperatur;.., in Norwegian or
-// English, decimal commas, UTC+1 all year, - for nothing, a line about the licence at the end. Sums are of
-// the hour that ends at their row. Units are those of the service: C, m/s, hPa, mm, cm.
+// MET Norway, CSV of seklima.met.no: Navn;Stasjon;Tid(norsk normaltid);Lufttemperatur;.., in
+// Norwegian or English, decimal commas, UTC+1 all year, - for nothing, a line about the licence at
+// the end. Sums are of the hour that ends at their row. Units are those of the service: C, m/s,
+// hPa, mm, cm.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -34,7 +35,9 @@ constexpr TableColumn kColumns[] = {
     {"air pressure at station level", Field::Pressure, 100.0},
     {"nedb\xC3\xB8r (1 t)", Field::Precip, 1.0, 0.0, 1.0},
     {"precipitation (1 h)", Field::Precip, 1.0, 0.0, 1.0},
-    {"sn\xC3\xB8" "dybde", Field::SnowDepth, 0.01},
+    {"sn\xC3\xB8"
+     "dybde",
+     Field::SnowDepth, 0.01},
     {"snow depth", Field::SnowDepth, 0.01},
     {"skydekke", Field::Cloud, 0.125},
     {"cloud cover", Field::Cloud, 0.125},
@@ -59,32 +62,34 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
         if (header.has(c.name)) columns.emplace_back(header.at(c.name), &c);
     rows.unread_columns(header.unread());
     if (columns.empty())
-        throw Error("weather: seklima: no column here is of an hour",
-                    "Choose hourly values (Lufttemperatur, Nedb\xC3\xB8r (1 t), Middelvind, ..) and order "
-                    "the file again.");
+        throw Error(
+            "weather: seklima: no column here is of an hour",
+            "Choose hourly values (Lufttemperatur, Nedb\xC3\xB8r (1 t), Middelvind, ..) and order "
+            "the file again.");
     rows.times_name_their_zone();
     rows.site().utc_offset_h = kZone_h;
-    rows.note(ReadNote::Kind::Info, 0, "place",
-              "the place of the station is not in the file: give latitude, longitude and elevation");
+    rows.note(
+        ReadNote::Kind::Info, 0, "place",
+        "the place of the station is not in the file: give latitude, longitude and elevation");
     std::string chosen = options.station;
     bool others = false, any = false;
-    const DatedRows how{
-        .separator = ';',
-        .time_of = [&](const Cells& cells) -> std::optional<std::int64_t> {
-            const auto us = time_of_cell(cell_of(cells, stamp), DateOrder::DayFirst);
-            if (!us) return std::nullopt;
-            return *us - static_cast<std::int64_t>(kZone_h * 3600e6);
-        },
-        .skip =
-            [&](const Cells& cells) {
-                // The last line names the licence.
-                if (cells.size() <= stamp) return true;
-                const auto who = trimmed(cell_of(cells, station));
-                if (who.empty()) return true;
-                if (chosen.empty()) chosen = std::string(who);
-                (who == chosen ? any : others) = true;
-                return who != chosen;
-            }};
+    const DatedRows how{.separator = ';',
+                        .time_of = [&](const Cells& cells) -> std::optional<std::int64_t> {
+                            const auto us =
+                                time_of_cell(cell_of(cells, stamp), DateOrder::DayFirst);
+                            if (!us) return std::nullopt;
+                            return *us - static_cast<std::int64_t>(kZone_h * 3600e6);
+                        },
+                        .skip =
+                            [&](const Cells& cells) {
+                                // The last line names the licence.
+                                if (cells.size() <= stamp) return true;
+                                const auto who = trimmed(cell_of(cells, station));
+                                if (who.empty()) return true;
+                                if (chosen.empty()) chosen = std::string(who);
+                                (who == chosen ? any : others) = true;
+                                return who != chosen;
+                            }};
     if (usual_step_h(lines, how) > 12.0)
         throw Error("weather: seklima: this file holds days", "Order hourly values.");
     for_dated_rows(lines, how, rows, [&](const DatedRow& row) {

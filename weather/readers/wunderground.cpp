@@ -1,6 +1,6 @@
-// Weather Underground, the table of a private station's day (TemperatureF,DewpointF,PressureIn,..), as
-// its page gave it and programs still write it: a <br> behind every row, rain as a count since midnight,
-// pressure at sea level, the clock of the place and mostly that of Greenwich beside it.
+// Weather Underground, the table of a private station's day (TemperatureF,DewpointF,PressureIn,..),
+// as its page gave it and programs still write it: a <br> behind every row, rain as a count since
+// midnight, pressure at sea level, the clock of the place and mostly that of Greenwich beside it.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -64,20 +64,22 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
               std::isnan(options.site.elevation_m)
                   ? "given for sea level; give the elevation to bring it down"
                   : "given for sea level, brought to the station");
-    rows.note(ReadNote::Kind::Info, 0, "precip", "what the count of the day rises by from row to row");
+    rows.note(ReadNote::Kind::Info, 0, "precip",
+              "what the count of the day rises by from row to row");
     RainCount rain;
-    const DatedRows how{
-        .time_of =
-            [&](const Cells& cells) {
-                auto cell = cell_of(cells, stamp);
-                if (const auto tag = cell.find("<br"); tag != cell.npos)
-                    cell = trimmed(cell.substr(0, tag));
-                return time_of_cell(cell);
-            },
-        // The page's own lines between the rows.
-        .skip = [](const Cells& cells) {
-            return cells.size() < 2 || trimmed(cells.front()).substr(0, 1) == "<";
-        }};
+    const DatedRows how{.time_of =
+                            [&](const Cells& cells) {
+                                auto cell = cell_of(cells, stamp);
+                                if (const auto tag = cell.find("<br"); tag != cell.npos)
+                                    cell = trimmed(cell.substr(0, tag));
+                                return time_of_cell(cell);
+                            },
+                        // The page's own lines between the rows.
+                        .skip =
+                            [](const Cells& cells) {
+                                return cells.size() < 2 ||
+                                       trimmed(cells.front()).substr(0, 1) == "<";
+                            }};
     for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         if (!rows.begin_row(row.time_us, row.line)) return;
         for (const auto& [at, column] : columns) {
@@ -88,10 +90,10 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
             if (column->field == Field::Precip) {
                 rain.put(value.value_or(kMissing) * column->scale, row.time_us, rows);
             } else if (column->field == Field::Pressure && value) {
-                put_value(Field::Pressure,
-                          station_pressure_pa(*value * column->scale, options.site.elevation_m,
-                                              kMissing),
-                          rows);
+                put_value(
+                    Field::Pressure,
+                    station_pressure_pa(*value * column->scale, options.site.elevation_m, kMissing),
+                    rows);
             } else {
                 put_cell(*column, cell, value, rows);
             }
@@ -109,6 +111,7 @@ bool recognise(const FileHead& head)
 }  // namespace
 
 extern const Reader wunderground_reader;
-const Reader wunderground_reader{"Weather Underground", "days of private stations", recognise, read};
+const Reader wunderground_reader{"Weather Underground", "days of private stations", recognise,
+                                 read};
 
 }  // namespace petrichor::weather

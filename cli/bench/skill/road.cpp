@@ -72,8 +72,9 @@ std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalPar
     const std::int64_t begin_us =
         std::min(road.observed.table.time_us[last], road.roadcast.time_us.front());
     const ForcingTable table = table_of(road, begin_us, p.surface.emissivity);
-    const weather::CellState start =
-        weather::observed_start(table, p, temperatures(road, last + 1));
+    // METRo begins with a line below its road.
+    const weather::CellState start = weather::observed_start(
+        table, p, temperatures(road, last + 1), weather::FirstProfile::Line);
     const auto run_with = [&](double traffic_wind_m_s) {
         weather::PhysicalParams stirred = p;
         stirred.surface.traffic_wind_m_s = traffic_wind_m_s;

@@ -25,8 +25,8 @@ constexpr float kReach_m = 80.0f;
 constexpr float kCell_m = 0.75f;
 constexpr std::uint32_t kMostPatches = 16000;
 constexpr int kRays = 1024;
-// Of them those within 75 degrees of where a sensor looks: the flat window of its pyrgeometer (CNR1: CG3)
-// sees a cone of 150 degrees. They come first, in the order of the sine's square.
+// Of them those within 75 degrees of where a sensor looks: the flat window of its pyrgeometer
+// (CNR1: CG3) sees a cone of 150 degrees. They come first, in the order of the sine's square.
 constexpr int kHeatRays = 955;
 constexpr int kSuns = 12;  // of an hour
 constexpr double kMostBeamRatio = 10.0;
@@ -34,14 +34,20 @@ constexpr double kClear = 0.1;  // of cloud
 constexpr double kCos85 = 0.08715574274765817;
 
 // Where a sensor looks, by UrbanFace.
-constexpr std::array<glm::vec3, kUrbanFaces> kLooks{
-    glm::vec3{0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 0}, {0, 0, 1}, {-1, 0, 0}};
+constexpr std::array<glm::vec3, kUrbanFaces> kLooks{glm::vec3{0, 1, 0}, {0, -1, 0}, {0, 0, -1},
+                                                    {1, 0, 0},          {0, 0, 1},  {-1, 0, 0}};
 
 constexpr std::uint32_t kSky = 0xffffffffu, kOutside = 0xfffffffeu, kDark = 0xfffffffdu;
 
 // parametersforsolweig_*.json of the data, as the albedos are (urban_scene).
 constexpr std::pair<std::string_view, double> kEmissivity[] = {
     {"asphalt", 0.95}, {"roof_tile", 0.95}, {"brick", 0.90}, {"lawn", 0.94}, {"soil", 0.94}};
+
+// Of the walls of houses, which rasters show without windows: what the town models of WRF take
+// (PWIN, Salamanca et al. 2010).
+constexpr double kGlassShare = 0.2;
+// Of two clear panes; from the outer one to the room.
+constexpr double kGlassEmissivity = 0.84, kGlassTakes = 0.15, kGlassRoom_w_m2_k = 3.2;
 
 // What a sensor sees: cosine-weighted rays of equal weight, and the sky by the bits of a patch.
 struct Sensor {
@@ -78,7 +84,8 @@ Sensor sensor_of(const scene::Patches& patches, const scene::Tracer& tracer, con
                  const glm::vec3& look)
 {
     Sensor s;
-    s.look = {static_cast<double>(look.x), static_cast<double>(look.y), static_cast<double>(look.z)};
+    s.look = {static_cast<double>(look.x), static_cast<double>(look.y),
+              static_cast<double>(look.z)};
     double sky = 0.0, outside = 0.0;
     for (int r = 0; r < kRays; ++r) {
         const glm::vec3 d = ray_of(look, r);
@@ -143,15 +150,16 @@ struct HourSun {
     std::array<double, kUrbanFaces> beam{}, around{};  // sum of V (n.s)+, over that of up
     double up = 0.0, outside_w_m2 = 1361.0;            // mean of the sun above the horizon
 };
-HourSun sun_over(const Town& town, const UrbanSite& site, const UrbanDay& day, std::int64_t begin_us)
+HourSun sun_over(const Town& town, const UrbanSite& site, const UrbanDay& day,
+                 std::int64_t begin_us)
 {
     HourSun sun;
     double sum_up = 0.0, sum_85 = 0.0;
     int above = 0;
     for (int k = 0; k < kSuns; ++k) {
-        const auto s = weather::sun_direction(begin_us + (2 * k + 1) * kHour_us / (2 * kSuns),
-                                              day.table.site.latitude_deg,
-                                              day.table.site.longitude_deg);
+        const auto s =
+            weather::sun_direction(begin_us + (2 * k + 1) * kHour_us / (2 * kSuns),
+                                   day.table.site.latitude_deg, day.table.site.longitude_deg);
         sun.outside_w_m2 = s.extraterrestrial_w_m2;
         if (!(s.up > 0.0)) continue;
         ++above;
@@ -171,8 +179,8 @@ HourSun sun_over(const Town& town, const UrbanSite& site, const UrbanDay& day, s
     return sun;
 }
 
-// The sky that the sensor which looks up measures, less what the walls send it. Each side's walls send
-// what its sensor has beside that same sky and the ground: linear in the sky.
+// The sky that the sensor which looks up measures, less what the walls send it. Each side's walls
+// send what its sensor has beside that same sky and the ground: linear in the sky.
 double measured_sky_w_m2(const Town& town, const UrbanHour& measured, double cloud, double air_k)
 {
     const auto& got = measured.longwave;
@@ -193,11 +201,18 @@ double measured_sky_w_m2(const Town& town, const UrbanHour& measured, double clo
     return left_w_m2 / share;
 }
 
+double sent_w_m2(double temp_k, double emissivity, double arrives_w_m2)
+{
+    return emissivity * weather::kStefanBoltzmann * std::pow(temp_k, 4.0) +
+           (1.0 - emissivity) * arrives_w_m2;
+}
+
 std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, const UrbanDay& day)
 {
     const weather::PatchParams params;
     const weather::PatchSet& set = town.sites.set;
-    weather::PatchWeather run(day.table, set, params, day.begin_us, film::ponds_of(town.sites.ground));
+    weather::PatchWeather run(day.table, set, params, day.begin_us,
+                              film::ponds_of(town.sites.ground));
     std::vector<UrbanRadiation> out;
     for (const UrbanHour& measured : day.measured) {
         // The last second of the hour: what the moment then says is the mean since the hour began.
@@ -215,24 +230,29 @@ std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, c
             sent[i] = s.shortwave_w_m2 *
                       (surface.albedo_dry + wet * (surface.albedo_wet - surface.albedo_dry));
             const double own_k = s.cell.surface_temp_c + weather::kZeroCelsiusK;
-            heat[i] = kind.like_air
-                          ? air_w_m2
-                          : surface.emissivity * weather::kStefanBoltzmann * std::pow(own_k, 4.0) +
-                                (1.0 - surface.emissivity) * s.longwave_w_m2;
+            heat[i] =
+                kind.like_air ? air_w_m2 : sent_w_m2(own_k, surface.emissivity, s.longwave_w_m2);
+            if (kind.room_behind)
+                heat[i] += kGlassShare * (window_w_m2({.sun_w_m2 = s.shortwave_w_m2,
+                                                       .heat_w_m2 = s.longwave_w_m2,
+                                                       .wind_m_s = now(Field::Wind) * s.wind_factor,
+                                                       .air_k = air_k,
+                                                       .room_k = params.room_temp_k}) -
+                                          heat[i]);
         }
         const HourSun sun = sun_over(town, site, day, measured.begin_us);
         const double global = std::max(0.0, now(Field::Shortwave));
         const double zenith_rad = std::acos(std::clamp(sun.up, 0.0, 1.0));
-        const double clear = weather::clear_beam_w_m2(sun.outside_w_m2, zenith_rad,
-                                                      day.table.site.elevation_m);
+        const double clear =
+            weather::clear_beam_w_m2(sun.outside_w_m2, zenith_rad, day.table.site.elevation_m);
         const double glowing = std::clamp(now(Field::Diffuse), 0.0, global);
         const double diffuse = std::max(glowing, global - clear * sun.up);
         weather::SkyGlow glow;
         if (sun.up > 0.0 && glowing > 1e-3) {
             const double direct = (global - diffuse) / sun.up;
             glow = weather::glow_below(
-                weather::perez_glow(glowing, direct, sun.outside_w_m2, zenith_rad), glowing, diffuse,
-                (clear - direct) * std::max(sun.up, kCos85));
+                weather::perez_glow(glowing, direct, sun.outside_w_m2, zenith_rad), glowing,
+                diffuse, (clear - direct) * std::max(sun.up, kCos85));
         }
         UrbanRadiation r;
         r.begin_us = measured.begin_us;
@@ -257,9 +277,9 @@ std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, c
         }
         const Sensor& up = town.sensors[kFaceDown];
         if (now(Field::Cloud) < kClear) {
-            r.clear_sky_w_m2 = up.heat_sky * (now(Field::Longwave) +
-                                              weather::warm_horizon_w_m2(
-                                                  up.log_secant, now(Field::Cloud), air_k));
+            r.clear_sky_w_m2 =
+                up.heat_sky * (now(Field::Longwave) +
+                               weather::warm_horizon_w_m2(up.log_secant, now(Field::Cloud), air_k));
             r.black_sky_w_m2 = up.heat_sky * air_w_m2;
             r.measured_sky_w_m2 = measured_sky_w_m2(town, measured, now(Field::Cloud), air_k);
             r.black_w_m2 = air_w_m2;
@@ -271,6 +291,23 @@ std::vector<UrbanRadiation> radiation(const Town& town, const UrbanSite& site, c
 }
 
 }  // namespace
+
+double window_k(const WindowAir& w)
+{
+    const double cube = w.air_k * w.air_k * w.air_k;
+    const double radiates_w_m2_k = 4.0 * kGlassEmissivity * weather::kStefanBoltzmann * cube;
+    const double exchange_w_m2_k = 4.0 + 4.0 * w.wind_m_s;
+    return w.air_k +
+           (kGlassTakes * w.sun_w_m2 +
+            kGlassEmissivity * (w.heat_w_m2 - weather::kStefanBoltzmann * cube * w.air_k) +
+            kGlassRoom_w_m2_k * (w.room_k - w.air_k)) /
+               (radiates_w_m2_k + exchange_w_m2_k + kGlassRoom_w_m2_k);
+}
+
+double window_w_m2(const WindowAir& w)
+{
+    return sent_w_m2(window_k(w), kGlassEmissivity, w.heat_w_m2);
+}
 
 std::vector<UrbanRadiation> urban_radiation(const UrbanSite& site, const UrbanDay& day)
 {

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "weather/models/physical/detail/cell_steps.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/detail/portable_math.h"
+#include "weather/physics/solar.h"
 
 namespace petrichor::weather {
 
@@ -26,10 +28,71 @@ std::optional<double> first_usable(std::span<const double> temps_c)
     return found == temps_c.end() ? std::nullopt : std::optional(*found);
 }
 
+constexpr double kDay_s = 86400.0, kTurn_1_s = 2.0 * kPi / kDay_s;
+
+// What is known of a profile at its first measurement, above the sub-surface thermometer.
+class Profile {
+public:
+    Profile(double surface_c, double below_c, double sensor_m)
+        : below_c_(below_c), left_k_(surface_c - below_c), sensor_m_(sensor_m)
+    {
+    }
+    void add_wave(const DayWave& wave, double second_of_sun)
+    {
+        wave_ = wave;
+        second_ = second_of_sun;
+        left_k_ -= wave.at(0.0, second_of_sun);
+    }
+    double at(double depth_m) const
+    {
+        return below_c_ + wave_.at(depth_m, second_) +
+               left_k_ * (1.0 - std::min(depth_m / sensor_m_, 1.0));
+    }
+
+private:
+    double below_c_, left_k_, sensor_m_, second_ = 0.0;
+    DayWave wave_;
+};
+
 }  // namespace
 
+double DayWave::at(double depth_m, double second_of_sun) const
+{
+    const double x = depth_m / damping_m;
+    return amplitude_k * detail::exponential(-x) *
+           detail::sine_cosine(kTurn_1_s * (second_of_sun - warmest_s) - x).cos;
+}
+
+DayWave day_wave(const Surface& surface, double latitude_deg, std::int64_t time_us, double cloud)
+{
+    constexpr double kBack_w_m2_k = 20.0;
+    constexpr std::int64_t kHour_us = 3600LL * kMicrosPerSecond;
+    const bool layered = !surface.layers.empty();
+    const double conductivity = layered ? surface.layers.front().conductivity_w_m_k
+                                        : surface.conductivity_w_m_k,
+                 capacity = layered ? surface.layers.front().heat_capacity_j_m3_k
+                                    : surface.heat_capacity_j_m3_k;
+    // Light of the hours around noon at longitude 0, where the clock is the mean sun's.
+    const std::int64_t noon_us = time_us / (24 * kHour_us) * 24 * kHour_us + 12 * kHour_us;
+    double light_w_m2 = 0.0;
+    for (int h = -12; h < 12; ++h) {
+        const double sine = sun_direction(noon_us + h * kHour_us, latitude_deg, 0.0).up;
+        light_w_m2 +=
+            cloudy_sky_w_m2(sine, cloud) * detail::sine_cosine(2.0 * kPi * h / 24.0).cos / 12.0;
+    }
+    // Half of a half-space's admittance is in phase with the surface, half an eighth of a day
+    // before it.
+    const double half = std::sqrt(0.5 * kTurn_1_s * conductivity * capacity);
+    DayWave wave;
+    wave.amplitude_k = (1.0 - surface.albedo_dry) * std::max(light_w_m2, 0.0) /
+                       std::hypot(kBack_w_m2_k + half, half);
+    wave.damping_m = std::sqrt(2.0 * conductivity / (capacity * kTurn_1_s));
+    wave.warmest_s = 0.5 * kDay_s + std::atan2(half, kBack_w_m2_k + half) / kTurn_1_s;
+    return wave;
+}
+
 CellState observed_start(const ForcingTable& table, const PhysicalParams& params,
-                         const RoadTemperatures& measured)
+                         const RoadTemperatures& measured, FirstProfile first)
 {
     check_params(params);
     const auto surface = first_usable(measured.surface_c);
@@ -43,10 +106,23 @@ CellState observed_start(const ForcingTable& table, const PhysicalParams& params
     const auto k = detail::make_cell_constants(params, table.site, deep_c + kZeroCelsiusK);
     CellState cell = detail::initial_cell(table, k);
     std::array<double, kGroundLayers> temps_c{};
+    Profile profile(*surface, below_c, measured.subsurface_depth_m);
+    const Site& site = table.site;
+    if (first == FirstProfile::DayAndLine && !std::isnan(site.longitude_deg) &&
+        !std::isnan(site.latitude_deg)) {
+        const auto at = std::find_if(measured.surface_c.begin(), measured.surface_c.end(), usable) -
+                        measured.surface_c.begin();
+        const std::int64_t us = measured.time_us[static_cast<std::size_t>(at)];
+        const auto by_sun_us =
+            us + static_cast<std::int64_t>(site.longitude_deg / 360.0 * kDay_s * 1e6);
+        const double cloud =
+            table.has(Field::Cloud) && table.rows() > 0 ? value_at(table, Field::Cloud, us) : 0.5;
+        profile.add_wave(day_wave(params.surface, site.latitude_deg, by_sun_us, cloud),
+                         static_cast<double>(by_sun_us % 86400000000LL) * 1e-6);
+    }
     double depth_m = 0.0;
     for (std::size_t i = 0; i < kGroundLayers; ++i) {
-        const double z = (depth_m + 0.5 * kGroundThickness_m[i]) / measured.subsurface_depth_m;
-        temps_c[i] = *surface + (below_c - *surface) * std::min(z, 1.0);
+        temps_c[i] = profile.at(depth_m + 0.5 * kGroundThickness_m[i]);
         depth_m += kGroundThickness_m[i];
     }
     double last_c = *surface;
