@@ -12,6 +12,7 @@
 #include "formulas/geometry/shapes.h"
 #include "formulas/light/area.h"
 #include "formulas/light/atmosphere.h"
+#include "formulas/light/bent_normal.h"
 #include "formulas/light/brdf.h"
 #include "formulas/light/clouds.h"
 #include "formulas/light/cube_map.h"
@@ -71,7 +72,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 81;
+SHARED_CONST int kProbeKinds = 82;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -255,8 +256,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 25) {
         const vec2 dx = vec2(a.x, a.y - 0.5f) * 0.1f;
         const vec2 dy = vec2(a.z - 0.5f, a.w) * b.x;
-        return vec4(footprint_scale(dx, dy, 1.0f), footprint_scale(dx, dy, 8.0f),
-                    footprint_scale(dx, dy, 64.0f), 0.0f);
+        return vec4(footprint_scale(dx, dy, 1.0f, 8.0f), footprint_scale(dx, dy, 8.0f, 1.0f), footprint_scale(dx, dy, 64.0f, 1.0f),
+                    footprint_scale(dx, dy, 8.0f, 8.0f));
     }
     if (kind == 32) {
         const vec3 n = probe_direction(a.x, a.y);
@@ -421,8 +422,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         vec3 v = probe_direction(b.x, b.y);
         v = normalize(v + n * (0.05f + abs(dot(n, v)) - dot(n, v)));  // the surface is seen
         const vec3 h = grain_normal(n, tangent_at(n, 6.0f * a.z), v,
-                                    ggx_slope(b.z, grain_alpha(0.1f + 0.8f * b.w, c.x)));
-        return vec4(h.x, h.y, h.z, grain_share(vec3(1.0f, 50.0f * c.y, 20.0f * c.z), 40.0f * c.w));
+                                    seen_slope(vec2(b.z, b.x), grain_alpha(0.1f + 0.8f * b.w, c.x), vec2(b.x - 0.5f, 0.1f + b.y)));
+        const vec3 middle = grain_middle(n, tangent_at(n, 6.0f * a.z), v, c.x);
+        return vec4(h.x + middle.x, h.y + middle.y, h.z + middle.z, grain_share(vec3(1.0f, 50.0f * c.y, 20.0f * c.z), 40.0f * c.w));
     }
     if (kind == 42) {
         DryMaterial dry;
@@ -701,6 +703,15 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                                                  snow_in_turf(b.y * turf_holds(b.z), b.w, 4.0f * c.x - 2.0f));
         const GroundGrowth growth = ground_growth(200.0f * vec2(c.y, c.z), 30.0f * c.w * c.w);
         return vec4(thin.snow, thin.melt, 2.0f + growth.moist, 2.0f + growth.other);
+    }
+    if (kind == 81) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const vec2 side = bent_side(2.0f * a.z - 1.0f, cos(1.5f * a.w), sin(1.5f * a.w));
+        const vec3 bent = bent_normal(n, b.x * probe_direction(b.y, b.z), b.w);
+        const float left = mirror_left(0.02f + 0.96f * c.x, n, bent, probe_direction(c.y, c.z), 0.1f + 0.9f * c.w);
+        // Of a fixed direction: at a threshold codes of one that was worked out may differ by a step.
+        const vec3 kept = bent_of_code(bent_code(vec3(0.6f, 0.64f, 0.48f)));
+        return vec4(1.0f + side.x + side.y, 2.0f + bent.x + 0.5f * bent.y, 1.0f + left, kept.x + kept.y + kept.z);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, splat3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -404,6 +404,7 @@ void add_layers(FrameGraph& graph, const Frame& frame, FrameResources& r, const 
     variant.fog = false;
     variant.shares = nullptr;
     variant.background = false;
+    variant.bent_normals = false;  // near things hide nothing of a layer
     variant.parts = &r.parts->or_none(r.parts->layer);
     variant.pixels = Pixels::All;
     const auto draw = [&](const SurfaceLayer& between) {
@@ -478,6 +479,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.image_based_light = settings.image_based_light;
     variant.mirrors_picture = settings.reflections;
     variant.ambient_occlusion = settings.ambient_occlusion;
+    variant.bent_normals = settings.ambient_occlusion && settings.bent_normals;
     variant.patch_light = uses_patches(frame, r);
     variant.emission = r.scene->emissive();
     variant.baked = baked_kinds(*r.scene);
@@ -567,7 +569,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_tile_lists(graph, *r.targets, constants);
         add_light_lists(graph, *r.targets, *r.lights, constants);
         if (settings.ambient_occlusion) {
-            add_ambient_occlusion(graph, *r.targets, constants, pixels);
+            add_ambient_occlusion(graph, *r.targets, constants, pixels, settings.bent_normals);
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);

@@ -248,6 +248,7 @@ struct Renderer::Impl {
             targets = make_frame_targets(device, *set.arena, s.width, s.height, words);
             set.words = words;
         }
+        if (s.ambient_occlusion && s.bent_normals && !targets.keeps_bent) make_occlusion(targets, *set.arena, true);
         const auto pixels =
             static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);
         if (s.exposed_light && targets.display->size < pixels * 8)

@@ -367,6 +367,7 @@ Device::Device(const RendererOptions& options)
         Features has;
         vkGetPhysicalDeviceFeatures2(physical_, &has.core);
         wanted.core.features.geometryShader = has.core.features.geometryShader;
+        wanted.core.features.samplerAnisotropy = has.core.features.samplerAnisotropy;
         primitive_ids_ = has.core.features.geometryShader == VK_TRUE;
         wanted.v12.scalarBlockLayout = VK_TRUE;
         wanted.v12.hostQueryReset = VK_TRUE;
@@ -392,6 +393,9 @@ Device::Device(const RendererOptions& options)
         VkPhysicalDeviceProperties properties{};
         vkGetPhysicalDeviceProperties(physical_, &properties);
         limits_ = properties.limits;
+        const int looks = options.texture_anisotropy > 0 ? options.texture_anisotropy : info_.kind == "cpu" ? 1 : 8;
+        if (has.core.features.samplerAnisotropy == VK_TRUE)
+            texture_anisotropy_ = static_cast<std::uint32_t>(std::clamp(static_cast<float>(looks), 1.0f, limits_.maxSamplerAnisotropy));
         VkFormatProperties floats{};
         vkGetPhysicalDeviceFormatProperties(physical_, VK_FORMAT_R32G32B32A32_SFLOAT, &floats);
         filters_floats_ = (floats.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;

@@ -35,6 +35,8 @@ public:
     bool filters_floats() const { return filters_floats_; }
     /// So many invocations of a compute shader can hand each other values.
     std::uint32_t subgroup_size() const { return subgroup_size_; }
+    /// Looks of a sampler along what is foreshortened (RendererOptions::texture_anisotropy), as far as the device has them.
+    std::uint32_t texture_anisotropy() const { return texture_anisotropy_; }
     /// RendererOptions::passes_apart.
     bool passes_apart() const { return passes_apart_; }
     const DeviceInfo& info() const { return info_; }
@@ -70,6 +72,7 @@ private:
     DeviceInfo info_;
     bool primitive_ids_ = false;
     bool filters_floats_ = false;
+    std::uint32_t texture_anisotropy_ = 1;
     bool passes_apart_ = false;
     std::uint32_t subgroup_size_ = 1;
     bool debug_utils_ = false;

@@ -25,6 +25,7 @@ struct RendererOptions {
     std::string device;       ///< part of a device name or an index; empty: best GPU, else CPU
     bool validation = false;  ///< load the validation layer and collect its messages
     bool passes_apart = false;  ///< each pass is waited for, so that its CPU time is known; slower
+    int texture_anisotropy = 0;  ///< looks of a texture's sampler along what is foreshortened, 1..16; 0: 8, and 1 on a CPU, which pays for them
     int ripple_texture_size = 512;  ///< texels a side of the map of rings: a power of two, 64..4096
 };
 

@@ -337,7 +337,7 @@ void upload_image(const Device& device, GpuImage& target,
 
 SamplerHandle make_sampler(const Device& device, VkFilter filter, VkSamplerAddressMode wrap_u,
                            VkSamplerAddressMode wrap_v, bool compare, float mip_bias,
-                           bool mip_nearest)
+                           bool mip_nearest, std::uint32_t anisotropy)
 {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
@@ -348,6 +348,8 @@ SamplerHandle make_sampler(const Device& device, VkFilter filter, VkSamplerAddre
     info.addressModeV = wrap_v;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.mipLodBias = mip_bias;
+    info.anisotropyEnable = anisotropy > 1;
+    info.maxAnisotropy = static_cast<float>(anisotropy);
     info.maxLod = VK_LOD_CLAMP_NONE;
     info.compareEnable = compare;
     info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;

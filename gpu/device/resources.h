@@ -128,7 +128,7 @@ void upload_image(const Device& device, GpuImage& target,
 
 SamplerHandle make_sampler(const Device& device, VkFilter filter, VkSamplerAddressMode wrap_u,
                            VkSamplerAddressMode wrap_v, bool compare = false, float mip_bias = 0.0f,
-                           bool mip_nearest = false);
+                           bool mip_nearest = false, std::uint32_t anisotropy = 1);
 
 }  // namespace petrichor::gpu
 

@@ -8,6 +8,7 @@
 #define FRAME_SWITCHES(ROW)                                                                      \
     ROW(shadows, true, "of the sun and of lamps")                                                \
     ROW(ambient_occlusion, true, "darker corners")                                               \
+    ROW(bent_normals, false, "with ambient_occlusion: light from all around comes from where near things leave it; mirrors see what they leave") \
     ROW(reflections, true, "smooth surfaces mirror the picture itself; false: probes and sky alone")  \
     ROW(image_based_light, true, "light from the sky or the HDR picture")                        \
     ROW(shelter, true, "roofs keep rain and snow off")                                           \

@@ -125,6 +125,21 @@ VkDeviceSize light_lists_bytes(int width, int height, int light_words)
     return tiles * (static_cast<VkDeviceSize>(light_words) + 1) * sizeof(glm::uvec2);
 }
 
+void make_occlusion(FrameTargets& targets, MemoryArena& arena, bool bent)
+{
+    const auto blocks = [&](const char* name, VkDeviceSize words) {
+        return arena.buffer({.name = name,
+                             .size = static_cast<VkDeviceSize>(divide_up(targets.width, OCCLUSION_BLOCK)) *
+                                     static_cast<VkDeviceSize>(divide_up(targets.height, OCCLUSION_BLOCK)) * words * 4,
+                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                             .texel_format = VK_FORMAT_R32_UINT});
+    };
+    targets.keeps_bent = bent;
+    targets.occlusion = blocks("screen_occlusion", bent ? 3 : 1);
+    targets.occlusion_points = blocks("occlusion_points", bent ? 3 : 2);
+}
+
 FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,
                                 int light_words)
 {
@@ -212,15 +227,7 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     };
     const VkDeviceSize tiles = static_cast<VkDeviceSize>(divide_up(width, PIXEL_LIST_TILE)) *
                                static_cast<VkDeviceSize>(divide_up(height, PIXEL_LIST_TILE));
-    const auto blocks = [&](const char* name, VkDeviceSize words) {
-        return arena.buffer({.name = name,
-                             .size = static_cast<VkDeviceSize>(divide_up(width, OCCLUSION_BLOCK)) *
-                                     static_cast<VkDeviceSize>(divide_up(height, OCCLUSION_BLOCK)) * words * 4,
-                             .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                             .texel_format = VK_FORMAT_R32_UINT});
-    };
-    targets.occlusion = blocks("screen_occlusion", 1);
-    targets.occlusion_points = blocks("occlusion_points", 2);
+    make_occlusion(targets, arena, false);
     targets.pixel_list = list("pixel_list", pixels);
     targets.pixel_groups = groups("pixel_groups");
     targets.mirror_list = list("mirror_list", pixels);

@@ -58,6 +58,7 @@ struct FrameTargets {
     std::uint32_t lanes = 0;              ///< of a CPU's subgroup (gpu/frame/lane_words.glsl); 0: another device
     std::unique_ptr<GpuBuffer> occlusion;  ///< of the screen: a word a block, formulas/light/occlusion_points.h
     std::unique_ptr<GpuBuffer> occlusion_points;  ///< of blocks
+    bool keeps_bent = false;  ///< both have bent normals behind that (gpu/frame/occlusion_blocks.glsl)
     std::unique_ptr<GpuImage>
         radiance;  ///< of this sample, before smooth reflections; alpha as below
     std::unique_ptr<GpuImage>
@@ -96,6 +97,9 @@ void bind_gbuffer(Bindings& bindings, std::uint32_t first, FrameTargets& targets
 //   reads    the G-buffer
 //   writes   its rows
 void add_gbuffer_rows(FrameGraph& graph, FrameTargets& targets, const GBufferParts& parts);
+
+/// Makes both anew, with room for bent normals or without.
+void make_occlusion(FrameTargets& targets, MemoryArena& arena, bool bent);
 
 /// light_words: 32-bit words for one bit a light.
 VkDeviceSize light_lists_bytes(int width, int height, int light_words);

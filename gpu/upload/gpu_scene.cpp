@@ -54,6 +54,7 @@ VertexAttribute position_attribute()
 GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures,
                    const Overlay& overlay)
     : arena_(device),
+      texture_stretch_(device.texture_anisotropy()),
       lights_(scene.lights),
       glow_sources_(glow_sources(scene, textures)),
       bounds_(scene_bounds(scene))
@@ -394,7 +395,7 @@ const SamplerHandle& GpuScene::sampler(const Device& device, Wrap u, Wrap v, boo
     auto& slot = samplers_[key];
     if (!slot) {
         slot = make_sampler(device, nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR, address_mode(u),
-                            address_mode(v));
+                            address_mode(v), false, 0.0f, false, nearest ? 1 : texture_stretch_);
     }
     return slot;
 }

@@ -143,6 +143,8 @@ public:
     /// be drawing.
     void lay(const Device& device, const LaidOverlay& overlay);
     bool overlaid() const { return overlaid_; }
+    /// Length over width of what its textures' samplers read at most (Device::texture_anisotropy).
+    std::uint32_t texture_stretch() const { return texture_stretch_; }
     std::uint64_t lays() const { return lays_; }  ///< grows with each
     /// By the triangles of a draw, from where they need not be drawn (Covered); empty: from nowhere.
     std::span<const std::uint8_t> covered(const Draw& draw) const
@@ -221,6 +223,7 @@ private:
     const SamplerHandle& sampler(const Device& device, Wrap u, Wrap v, bool nearest);
 
     MemoryArena arena_;
+    std::uint32_t texture_stretch_ = 1;
     std::unique_ptr<GpuBuffer> vertices_;
     std::unique_ptr<GpuBuffer> positions_;
     std::unique_ptr<GpuBuffer> indices_;

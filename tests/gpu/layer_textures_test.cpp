@@ -430,19 +430,53 @@ TEST_F(LayerTextures, AThinFilmIsColouredByEachLamp)
         lamp.intensity = 1e7f;
         frame.extra_lights = {lamp};
         const float cosine = glm::dot(to_eye, glm::normalize(to_eye + to_lamp));
-        // What facets send on to each other has the colour that the eye sees.
         const auto lobe = [&](const glm::vec3& f0) {
             return shared::with_all_light(shared::make_lobe({0, 1, 0}, to_eye, glm::vec3(0.0f), f0, 0.25f), 0.5f, shared::lost_along_lobe(0.5f));
         };
-        shared::Lobe coloured = lobe(shared::filmed_f0(film, to_eye.y));
-        coloured.f0 = shared::filmed_f0(film, cosine);
-        const glm::vec3 wanted = shared::shade_lobe(coloured, to_lamp) / shared::shade_lobe(lobe(base), to_lamp);
+        const glm::vec3 wanted = shared::shade_lobe(lobe(shared::filmed_f0(film, cosine)), to_lamp) / shared::shade_lobe(lobe(base), to_lamp);
         const glm::vec3 plain(pixel(shot(metal), 23, 23)), seen(pixel(shot(filmed), 23, 23));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / plain[c], wanted[c], 0.03f * wanted[c]) << way.x << " " << way.z << " " << c;
         most = std::max(most, wanted.r / wanted.b);
         least = std::min(least, wanted.r / wanted.b);
     }
     EXPECT_GT(most, 1.5f * least);
+}
+
+// A panel is mirrored in the colour of where the lobe meets it, which is not its middle: beside as many points as stand for it.
+TEST_F(LayerTextures, AThinFilmIsColouredByThePartOfALampThatItMirrors)
+{
+    frame.sky.sun_elevation_rad = -1.0f;
+    frame.settings.image_based_light = false;
+    frame.settings.width = frame.settings.height = 47;
+    Material filmed = plain_material(glm::vec3(0.6f, 0.55f, 0.5f), 0.4f);
+    filmed.metallic = 1.0f;
+    filmed.iridescence = 0.9f;
+    filmed.iridescence_ior = 1.4f;
+    filmed.iridescence_thickness_max_nm = 420.0f;
+    Light panel;
+    panel.kind = LightKind::Rectangle;
+    panel.position_m = glm::vec3(0, 2, 2.0f);
+    panel.direction = glm::vec3(0, -1, 0);
+    panel.half_u_m = glm::vec3(1.5f, 0, 0);
+    panel.half_v_m = glm::vec3(0, 0, 4.0f);
+    panel.intensity = 1e5f;
+    frame.extra_lights = {panel};
+    const glm::vec3 whole(pixel(shot(filmed), 23, 23));
+    frame.extra_lights.clear();
+    const int across = 8, along = 24;
+    for (int i = 0; i < across; ++i) {
+        for (int k = 0; k < along; ++k) {
+            Light point;
+            point.kind = LightKind::Point;
+            point.position_m = panel.position_m + panel.half_u_m * (2.0f * (static_cast<float>(i) + 0.5f) / across - 1.0f) +
+                               panel.half_v_m * (2.0f * (static_cast<float>(k) + 0.5f) / along - 1.0f);
+            point.intensity = panel.intensity * (12.0f * 2.0f / (across * along)) * glm::normalize(point.position_m).y;
+            frame.extra_lights.push_back(point);
+        }
+    }
+    const glm::vec3 points(pixel(shot(filmed), 23, 23));
+    const glm::vec3 one = whole / luminance(whole), other = points / luminance(points);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(one[c], other[c], 0.06f) << c << " " << one[0] << " " << one[1] << " " << one[2];
 }
 
 }  // namespace

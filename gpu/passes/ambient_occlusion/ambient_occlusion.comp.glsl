@@ -14,5 +14,7 @@ void main()
     const float depth = depth_at(texel);
     if (depth <= 0.0) return;  // nobody asks there
     const uint pixel = uint(texel.x & 1) + 2u * uint(texel.y & 1);
-    atomicOr(target[occlusion_block(texel / OCCLUSION_BLOCK, frame.size)], occlusion_in_word(open_at(texel, depth, picture_pixel(texel)), pixel));
+    const Open open = open_at(texel, depth, picture_pixel(texel));
+    atomicOr(target[occlusion_block(texel / OCCLUSION_BLOCK, frame.size)], occlusion_in_word(open.share, pixel));
+    if (BENT != 0u) atomicOr(target[bent_word(texel, frame.size)], bent_code(open.bent) << 16 * (texel.x & 1));
 }

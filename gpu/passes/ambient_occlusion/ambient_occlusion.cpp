@@ -16,11 +16,11 @@ namespace {
 
 constexpr const char* kPass = "ambient_occlusion";
 
-ComputePass pass_of(FrameTargets& targets, const ConstantsRange& constants, const char* shader, GpuBuffer& pixels)
+ComputePass pass_of(FrameTargets& targets, const ConstantsRange& constants, const char* shader, GpuBuffer& pixels, bool bent)
 {
     return {.name = kPass,
             .shader = shader,
-            .constants = {},
+            .constants = {{AMBIENT_OCCLUSION_SPEC_BENT, bent}},
             .bindings = {{AMBIENT_OCCLUSION_FRAME, frame_binding(constants)},
                          {AMBIENT_OCCLUSION_DEPTH, texels(*targets.rows.depth)},
                          {AMBIENT_OCCLUSION_NORMALS, texels(*targets.rows.normals)},
@@ -39,9 +39,9 @@ void add_fill(FrameGraph& graph, const std::string& pass, GpuBuffer& buffer, std
 }
 
 void add_pixels(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants, GpuBuffer& list,
-                GpuBuffer& groups)
+                GpuBuffer& groups, bool bent)
 {
-    ComputePass pass = pass_of(targets, constants, "ambient_occlusion.comp", list);
+    ComputePass pass = pass_of(targets, constants, "ambient_occlusion.comp", list, bent);
     pass.bindings.push_back({AMBIENT_OCCLUSION_TARGET, storage_buffer(*targets.occlusion)});
     add_over_list(graph, std::move(pass), groups);
 }
@@ -54,11 +54,11 @@ void add_no_occlusion(FrameGraph& graph, FrameTargets& targets, const std::strin
 }
 
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
-                           const ConstantsRange& constants, Pixels pixels)
+                           const ConstantsRange& constants, Pixels pixels, bool bent)
 {
     if (pixels == Pixels::Listed) {
         add_fill(graph, kPass, *targets.occlusion, 0);
-        add_pixels(graph, targets, constants, *targets.pixel_list, *targets.pixel_groups);
+        add_pixels(graph, targets, constants, *targets.pixel_list, *targets.pixel_groups, bent);
         return;
     }
     // Tiles beside those with a surface have none.
@@ -67,14 +67,14 @@ void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
     GpuBuffer& alone = *targets.mirror_list;
     add_empty_list(graph, kPass, alone);
     const TileList& tiles = targets.surface_tiles;
-    ComputePass points = pass_of(targets, constants, "occlusion_points.comp", *tiles.tiles);
+    ComputePass points = pass_of(targets, constants, "occlusion_points.comp", *tiles.tiles, bent);
     points.bindings.push_back({OCCLUSION_POINTS_TARGET, storage_buffer(*targets.occlusion_points)});
     points.bindings.push_back({OCCLUSION_POINTS_ALONE, storage_buffer(alone)});
     add_over_list(graph, std::move(points), *tiles.groups);
     add_over_list(graph,
                   ComputePass{.name = kPass,
                               .shader = "spread_occlusion.comp",
-                              .constants = {},
+                              .constants = {{AMBIENT_OCCLUSION_SPEC_BENT, bent}},
                               .bindings = {{SPREAD_OCCLUSION_FRAME, frame_binding(constants)},
                                            {SPREAD_OCCLUSION_TILES, texels(*tiles.tiles)},
                                            {SPREAD_OCCLUSION_POINTS, texels(*targets.occlusion_points)},
@@ -83,7 +83,7 @@ void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                               .groups = {}},
                   *tiles.groups);
     add_list_groups(graph, kPass, alone, *targets.mirror_groups);
-    add_pixels(graph, targets, constants, alone, *targets.mirror_groups);
+    add_pixels(graph, targets, constants, alone, *targets.mirror_groups, bent);
 }
 
 }  // namespace petrichor::gpu

@@ -6,6 +6,7 @@
 #define PETRICHOR_AMBIENT_OCCLUSION_GLSL
 #include "gpu/frame/gbuffer.glsl"
 #include "formulas/light/area.h"
+#include "formulas/light/bent_normal.h"
 #include "formulas/light/occlusion_points.h"
 #include "formulas/noise/noise.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion_io.h"
@@ -13,6 +14,7 @@
 #include "gpu/frame/pixel_list.glsl"
 #include "gpu/frame/occlusion_blocks.glsl"
 
+layout(constant_id = AMBIENT_OCCLUSION_SPEC_BENT) const uint BENT = 0u;
 layout(binding = AMBIENT_OCCLUSION_FRAME, scalar) uniform Frame { FrameConstants frame; };
 #include "gpu/frame/picture_pixel.glsl"
 layout(binding = AMBIENT_OCCLUSION_DEPTH) uniform samplerBuffer depth_rows;
@@ -51,7 +53,8 @@ float above(float horizon_cosine, float cosine, float sine)
 
 struct Slice {
     float open;
-    float whole;  // with nothing near: one by one they are more or less than 1
+    float whole;   // with nothing near: one by one they are more or less than 1
+    vec3 missing;  // of the sum of directions that are open (formulas/light/bent_normal.h)
 };
 
 Slice slice_of(ivec2 texel, vec3 x, vec3 normal, vec3 to_eye, vec2 way, vec3 right, vec3 down, float radius_px,
@@ -68,11 +71,22 @@ Slice slice_of(ivec2 texel, vec3 x, vec3 normal, vec3 to_eye, vec2 way, vec3 rig
     const float sine = side * sqrt(1.0 - cosine * cosine);
     const float before = horizon(texel, x, to_eye, way * radius_px, radius_m, start, -sine);
     const float behind = horizon(texel, x, to_eye, -way * radius_px, radius_m, start, sine);
-    return Slice(size * (above(before, cosine, sine) + above(behind, cosine, -sine)), size * (cosine + leans * sine));
+    vec3 missing = vec3(0.0);
+    if (BENT != 0u) {
+        const vec2 left = bent_side(before, cosine, sine) - bent_side(-sine, cosine, sine);
+        const vec2 other = bent_side(behind, cosine, -sine) - bent_side(sine, cosine, -sine);
+        missing = size * (level * (inversesqrt(max(dot(level, level), 1.0e-12)) * (left.x - other.x)) + to_eye * (left.y + other.y));
+    }
+    return Slice(size * (above(before, cosine, sine) + above(behind, cosine, -sine)), size * (cosine + leans * sine), missing);
 }
 
+struct Open {
+    float share;
+    vec3 bent;  // unit: the mean direction of it
+};
+
 // What is left of the light at a pixel that shows a surface.   seed: by which its slices turn
-float open_at(ivec2 texel, float depth, ivec2 seed)
+Open open_at(ivec2 texel, float depth, ivec2 seed)
 {
     const vec3 mesh = position_at(texel, depth);
     const float z = linear_depth(frame, depth);
@@ -96,7 +110,8 @@ float open_at(ivec2 texel, float depth, ivec2 seed)
     const Slice other = slice_of(texel, x, normal, to_eye, vec2(-first.y, first.x), right, down, radius_px, radius_m, start);
     const float whole = one.whole + other.whole;
     const float open = one.open + other.open;
-    return clamp(1.0 - frame.ao_strength * (1.0 - open / whole), 0.0, 1.0);
+    return Open(clamp(1.0 - frame.ao_strength * (1.0 - open / whole), 0.0, 1.0),
+                BENT != 0u ? bent_normal(normal, one.missing + other.missing, frame.ao_strength) : normal);
 }
 
 #endif

@@ -13,10 +13,10 @@ namespace petrichor::gpu {
 // (formulas/light/occlusion_points.h). Of Pixels::Listed each looks for its own.
 //
 //   reads    depth_rows, surface_tiles, normals
-//   writes   screen_occlusion, where a surface is
+//   writes   screen_occlusion, where a surface is; behind it bent normals, if `bent` (make_occlusion)
 //   scratch  occlusion_points, mirror_list, mirror_groups
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
-                           const ConstantsRange& constants, Pixels pixels);
+                           const ConstantsRange& constants, Pixels pixels, bool bent);
 /// Nothing is near any pixel, as part of the pass of that name.
 void add_no_occlusion(FrameGraph& graph, FrameTargets& targets, const std::string& pass);
 

@@ -4,6 +4,9 @@
 
 #define AMBIENT_OCCLUSION_TILE 8
 
+// Specialization constant: 1: bent normals are kept behind the occlusion (gpu/frame/occlusion_blocks.glsl).
+#define AMBIENT_OCCLUSION_SPEC_BENT 0
+
 #define AMBIENT_OCCLUSION_FRAME 0
 #define AMBIENT_OCCLUSION_DEPTH 1  // row by row
 #define AMBIENT_OCCLUSION_NORMALS 2

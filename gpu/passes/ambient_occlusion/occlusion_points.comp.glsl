@@ -8,7 +8,7 @@
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.glsl"
 
 layout(local_size_x = OCCLUSION_LANES, local_size_y = OCCLUSION_ROWS) in;
-layout(binding = OCCLUSION_POINTS_TARGET, scalar) writeonly buffer Points { uvec2 points[]; };
+layout(binding = OCCLUSION_POINTS_TARGET, scalar) writeonly buffer Points { uint points[]; };
 layout(binding = OCCLUSION_POINTS_ALONE, scalar) buffer Alone { uint alone_count; uint alone_pixels[]; };
 
 // The change of depth to the neighbour along an axis that is nearer in depth.
@@ -29,7 +29,8 @@ void main()
     const float step = pixel_depth_step(frame, depth);
     OcclusionPoint point;
     point.depth = depth;
-    point.open = open_at(texel, max(depth, 1.0e-9), picture_pixel(corner) / OCCLUSION_BLOCK);
+    const Open open = open_at(texel, max(depth, 1.0e-9), picture_pixel(corner) / OCCLUSION_BLOCK);
+    point.open = open.share;
     point.slope = vec2(depth_change(texel, depth, ivec2(1, 0)), depth_change(texel, depth, ivec2(0, 1))) / step;
     point.alone = 0u;
     for (int i = 0; i < OCCLUSION_BLOCK * OCCLUSION_BLOCK; ++i) {
@@ -39,8 +40,11 @@ void main()
         const bool alone = other > 0.0 && all(lessThan(at, frame.size)) && !(depth > 0.0 && fit >= kLeastOcclusionFit);
         if (alone) point.alone |= 1u << i;
     }
-    points[occlusion_block(block, frame.size)] =
-        depth > 0.0 ? occlusion_point_code(point) : uvec2(kNoOcclusionPoint);
+    const int at_point = 2 * occlusion_block(block, frame.size);
+    const uvec2 code = depth > 0.0 ? occlusion_point_code(point) : uvec2(kNoOcclusionPoint);
+    points[at_point] = code.x;
+    points[at_point + 1] = code.y;
+    if (BENT != 0u) points[bent_point_word(block, frame.size)] = packSnorm2x16(octahedral_encode(open.bent));
     const uint count = uint(bitCount(point.alone));
     const uint before = subgroupExclusiveAdd(count);
     const uint all_of_them = subgroupAdd(count);

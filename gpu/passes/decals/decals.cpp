@@ -22,7 +22,8 @@ constexpr int kSpecialized[] = {
     SURFACE_SPEC_LAYER_ROLES_C,                        SURFACE_SPEC_FALLS,
     DECAL_SPEC_WEATHER,    DECAL_SPEC_EMISSION,        RESOLVE_SPEC_WEATHER,
     RESOLVE_SPEC_EMISSION, RESOLVE_SPEC_BAKED,         RESOLVE_SPEC_PAYLOAD,
-    RESOLVE_SPEC_SHAPES,   RESOLVE_SPEC_IN_WORLD,      SURFACE_SPEC_INSTANCED};
+    RESOLVE_SPEC_SHAPES,   RESOLVE_SPEC_IN_WORLD,      SURFACE_SPEC_INSTANCED,
+    SURFACE_SPEC_STRETCH};
 constexpr bool all_differ()
 {
     for (std::size_t i = 0; i < std::size(kSpecialized); ++i) {
@@ -91,6 +92,7 @@ void draw_decals(PassContext& pass, const GpuScene& scene, const Frustum& frustu
             {SURFACE_SPEC_LAYER_ROLES_B, material.layer_roles[1]},
             {SURFACE_SPEC_LAYER_ROLES_C, material.layer_roles[2]},
             {SURFACE_SPEC_BESIDES, material.besides},
+            {SURFACE_SPEC_STRETCH, scene.texture_stretch()},
             {SURFACE_SPEC_PLACE, weather.place},
             {DECAL_SPEC_WEATHER, own_weather},
             {DECAL_SPEC_EMISSION, parts.emission}};

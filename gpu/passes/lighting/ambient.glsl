@@ -6,4 +6,5 @@ struct Ambient {
     vec3 mirrored;    // the sky's maps times this, where no probe tells more
     vec3 unhidden;    // irradiance before what stands near takes its share
     float open;       // 0..1: how far a mirror sees the sky
+    vec3 lean;        // from the normal to the middle of what near things leave
 };

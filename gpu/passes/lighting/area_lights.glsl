@@ -166,6 +166,20 @@ vec3 mirrored_in_all(vec3 f0, Lobe lobe, vec2 sum)
     return mirrored_by(f0, sum) + lobe.again * (lobe.loss.along * sqrt(lost_at(lobe.loss, lobe.nv)) * (sum.x + sum.y));
 }
 
+// Whence most of that comes which a lobe mirrors of a shape, from its irradiance where the lobe is a cosine.
+vec3 toward_lobe(Frame3 lobe, vec3 in_lobe)
+{
+    const vec3 toward = cross(lobe.y, lobe.z) * in_lobe.x + cross(lobe.z, lobe.x) * in_lobe.y + cross(lobe.x, lobe.y) * in_lobe.z;
+    return normalize(toward * (dot(lobe.x, cross(lobe.y, lobe.z)) < 0.0 ? -1.0 : 1.0));
+}
+
+// With the colour of a thin film there.
+LitPoint filmed_in_lobe(LitPoint p, vec3 in_lobe)
+{
+    if ((LAYERS & LAYERS_IRIDESCENT) == 0u) return p;
+    return dot(in_lobe, in_lobe) > 1.0e-14 ? filmed_toward(p, toward_lobe(p.shaped.lobe, in_lobe)) : p;
+}
+
 // Highlight of GGX's lobes of a shape that glows or is a lamp.
 //   in_lobe    its irradiance where the lobe is a cosine
 //   in_second  the same of the second lobe; counts where there is one
@@ -219,7 +233,8 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
     if (ggx && p.lobe.lit > 0.0 && specular > 0.0) {
         vec3 in_second = vec3(0.0);
         if (TWO_LOBES) in_second = outline_irradiance(o, p.shaped.second_lobe);
-        radiance += shape_highlight(filmed_toward(p, to_it), outline_irradiance(o, p.shaped.lobe), in_second, specular);
+        const vec3 in_lobe = outline_irradiance(o, p.shaped.lobe);
+        radiance += shape_highlight(filmed_in_lobe(p, in_lobe), in_lobe, in_second, specular);
     }
     if (FILM != 0u)
         radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight_share(highlight, p.film.roughness));
@@ -342,7 +357,7 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
         if (TWO_LOBES)
             in_second = rectangle_irradiance(through(p.shaped.second_lobe, centre), through(p.shaped.second_lobe, half_u),
                                              through(p.shaped.second_lobe, half_v));
-        radiance += shape_highlight(filmed_toward(p, f / size), in_lobe, in_second, highlight);
+        radiance += shape_highlight(filmed_in_lobe(p, in_lobe), in_lobe, in_second, highlight);
     }
     const float q2 = dot(centre, centre) * light.inverse_reach2;
     const vec3 shines = color.rgb * clamp(1.0 - light.size.y * q2 * q2, 0.0, 1.0);
@@ -417,7 +432,9 @@ void later_layers(inout LitPoint p, int at, LayerShares share, float first_share
 vec3 grained_mirror(LitPoint p, vec3 bent, float view_m, ivec2 texel)
 {
     const float wide = grain_alpha(p.roughness * p.roughness, p.layers.anisotropy) * frame.grain_dither.x;
-    const float slope = ggx_slope(dither(picture_pixel(texel), frame.sample_index), wide);
+    const ivec2 pixel = picture_pixel(texel);
+    const vec2 chance = vec2(dither(pixel, frame.sample_index), fract(dither(pixel.yx + 37, 0u) + 0.5698403 * float(frame.sample_index)));
+    const float slope = seen_slope(chance, wide, vec2(dot(p.view, p.layers.tangent), dot(p.view, p.normal)));
     const vec3 drawn = grain_normal(p.normal, p.layers.tangent, p.view, slope);
     const float share = grain_share(frame.grain_dither, view_m);
     return share <= 0.0 ? bent : normalize(mix(bent, drawn, share));

@@ -10,6 +10,7 @@
 #include "gpu/lighting/models_io.h"
 #include "formulas/color/srgb.h"
 #include "formulas/light/area.h"
+#include "formulas/light/bent_normal.h"
 #include "formulas/light/grain.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/occlusion_points.h"
@@ -325,12 +326,8 @@ void main()
                 p.layers.anisotropy =
                     size < 1.0e-3 ? 0.0 : texelFetch(layers_table, at + 2).x * open * share.anisotropy;
                 if (p.layers.anisotropy > 0.0) {
-                    // What is mirrored is smeared along the tangent: as of a normal bent to the eye
-                    // across it (KHR_materials_anisotropy).
-                    const vec3 across = cross(n, p.layers.tangent);
-                    const vec3 grain = cross(cross(across, v), across);
-                    const float keep = 1.0 - p.layers.anisotropy * m.smoothness;
-                    mirror_normal = normalize(mix(normalize(grain), n, keep * keep * keep * keep));
+                    // What is mirrored is smeared along the tangent.
+                    mirror_normal = grain_middle(n, p.layers.tangent, v, p.layers.anisotropy);
                     if (GRAIN != 0u) mirror_normal = grained_mirror(p, mirror_normal, view_m, texel);
                 }
             }
@@ -339,7 +336,7 @@ void main()
                                                   p.roughness * p.roughness), p.roughness, p.layers.tangent, p.layers.anisotropy);
 
         p.shaped = shaped_lobes(p);
-        if ((SUN != 0u && SHADOWS != 0u) || LAMP_SHADOWS != 0u)
+        if ((SUN != 0u && SHADOWS != 0u) || LAMP_SHADOWS != 0u || BENT_NORMALS)
             p.mesh_normal = geometry_normal(texel, position, depth, g.base_normal);
 
         if (GATHERS != 0u && model_gathers(p.model)) p.gathers = GATHERS_DIFFUSE;
@@ -428,13 +425,15 @@ void main()
             s.irradiance_behind = p.layers.transmitted > 0.0 ? sky_irradiance(-n) * seen : vec3(0.0);
             if (BAKED != 0u) s.irradiance *= 1.0 - g.baked_sky;
             // A water surface lies above the crevices that its ground has.
-            const float mirror_occlusion = mix(m.occlusion * around.screen, 1.0, closed);
+            const float mirror_occlusion = mix(BENT_NORMALS ? m.occlusion : m.occlusion * around.screen, 1.0, closed);
             float mean_roughness = p.roughness;
             if (TWO_LOBES) mean_roughness = mix(p.roughness, p.second.roughness, p.second.share);
             // Lagarde and de Rousiers 2014.
             s.specular_occlusion =
                 saturate(pow(nv + mirror_occlusion, exp2(-16.0 * mean_roughness - 1.0)) - 1.0 +
                          mirror_occlusion);
+            if (BENT_NORMALS)
+                s.specular_occlusion *= mix(mirror_left(around.screen, n, normalize(n + around.lean), reflect(-v, n), mean_roughness), 1.0, closed);
             if (HORIZON != 0u) s.specular_occlusion *= horizon_occlusion(p, mirror_normal, texel);
             s.split_sum = split_sum(first_normal, v, p.roughness);
             vec3 of_second = vec3(0.0);  // of what is mirrored

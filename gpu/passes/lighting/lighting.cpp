@@ -30,7 +30,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_WEATHER, variant.weather ? targets.weather_kept() : WEATHER_DRY},
                       {LIGHTING_SPEC_SHADOWS, variant.shadows},
                       {LIGHTING_SPEC_IMAGE_BASED_LIGHT, variant.image_based_light},
-                      {LIGHTING_SPEC_AMBIENT_OCCLUSION, variant.ambient_occlusion},
+                      {LIGHTING_SPEC_AMBIENT_OCCLUSION, variant.bent_normals ? 2u : variant.ambient_occlusion ? 1u : 0u},
                       {LIGHTING_SPEC_EMISSION, variant.emission},
                       {LIGHTING_SPEC_BAKED, variant.baked},
                       {LIGHTING_SPEC_GAMMA, variant.gamma},

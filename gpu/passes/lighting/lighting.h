@@ -22,6 +22,7 @@ struct LightingVariant {
     bool image_based_light = true;
     bool mirrors_picture = true;  ///< the reflections behind it do
     bool ambient_occlusion = true;
+    bool bent_normals = false;  ///< the occlusion has some
     bool emission = true;
     std::uint32_t baked = 0;  ///< LIGHTING_BAKED_..
     bool gamma = false;

@@ -9,7 +9,7 @@
 #define LIGHTING_SPEC_WEATHER 0
 #define LIGHTING_SPEC_SHADOWS 1
 #define LIGHTING_SPEC_IMAGE_BASED_LIGHT 2
-#define LIGHTING_SPEC_AMBIENT_OCCLUSION 3
+#define LIGHTING_SPEC_AMBIENT_OCCLUSION 3  // 2: with bent normals
 #define LIGHTING_SPEC_EMISSION 4
 #define LIGHTING_SPEC_ALL_LIGHTS 5  // 1: no lists; what they are tested against
 #define LIGHTING_SPEC_BAKED 6       // bits of LIGHTING_BAKED_..: light that came with the surface

@@ -4,6 +4,7 @@ layout(constant_id = LIGHTING_SPEC_WEATHER) const uint WEATHER = 1u;
 layout(constant_id = LIGHTING_SPEC_SHADOWS) const uint SHADOWS = 1u;
 layout(constant_id = LIGHTING_SPEC_IMAGE_BASED_LIGHT) const uint IMAGE_BASED_LIGHT = 1u;
 layout(constant_id = LIGHTING_SPEC_AMBIENT_OCCLUSION) const uint AMBIENT_OCCLUSION = 1u;
+const bool BENT_NORMALS = AMBIENT_OCCLUSION > 1u;
 layout(constant_id = LIGHTING_SPEC_EMISSION) const uint EMISSION = 1u;
 layout(constant_id = LIGHTING_SPEC_GAMMA) const uint GAMMA = 0u;
 layout(constant_id = LIGHTING_SPEC_BAKED) const uint BAKED = 0u;

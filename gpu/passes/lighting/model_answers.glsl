@@ -57,6 +57,10 @@ LitPoint filmed_toward(LitPoint p, vec3 to_light)
     const float asked = clamp(sqrt(0.5 + 0.5 * dot(p.view, to_light)), 0.02, 1.0);
     const vec3 change = p.thin_film.share > 0.0 ? filmed_f0(p.thin_film, asked) - filmed_f0(p.thin_film, seen) : vec3(0.0);
     const vec3 before = p.specular;
+    // Light that goes on between facets meets two of them.
+    const vec3 was = p.lobe.f0 + (vec3(1.0) - p.lobe.f0) * (1.0 / 21.0);
+    const vec3 is = was + change * (20.0 / 21.0);
+    p.lobe.again *= clamp(is * is / (was * was), vec3(0.0), vec3(4.0));
     // Without a highlight it stays so.
     if (before.r + before.g + before.b > 0.0) p.specular = clamp(before + change, vec3(0.0), vec3(1.0));
     p.lobe.f0 = p.lobe.lit > 0.0 ? clamp(p.lobe.f0 + change, vec3(0.0), vec3(1.0)) : p.lobe.f0;

@@ -67,6 +67,7 @@ struct SpreadLight {
     float open;         // share of open directions; < 0: no patch is near
     float close;        // PatchLight::close
     float close_light;  // PatchLight::close_light
+    vec3 turn;          // change of it with the normal, over what it is
 };
 
 SpreadLight patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec2 texel)
@@ -95,12 +96,12 @@ SpreadLight patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_
     const float close = sum.close;
     float close_light = sum.close_light;
     // Far ground behind a near thing is lit by the sky, not as that thing is.
-    if (total <= without) return SpreadLight(vec3(0.0), -1.0, 0.0, 0.0);
+    if (total <= without) return SpreadLight(vec3(0.0), -1.0, 0.0, 0.0, vec3(0.0));
     close_light /= 4095.0 * max(dot(sent.rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0e-20);
     sent /= total;
     const float turned = clamp(dot(turn.xyz / total, bent) + turn.w / total, 0.2, 2.0);
     return SpreadLight(min(sent.rgb * turned, vec3(60000.0)), sent.a, close / (4095.0 * total),
-                       min(close_light, 1.0));
+                       min(close_light, 1.0), turn.xyz / (total * turned));
 }
 
 #endif

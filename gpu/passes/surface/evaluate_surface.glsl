@@ -50,8 +50,8 @@ void bend_over_land(inout vec3 normal, inout vec3 cover_normal, SurfaceInput at,
 // The samples of a pixel share its footprint: each may read finer levels.
 void share_footprint(inout SurfaceInput at)
 {
-    const float first = footprint_scale(at.uv_dx.xy, at.uv_dy.xy, frame.samples);
-    const float second = footprint_scale(at.uv_dx.zw, at.uv_dy.zw, frame.samples);
+    const float first = footprint_scale(at.uv_dx.xy, at.uv_dy.xy, frame.samples, float(STRETCH));
+    const float second = footprint_scale(at.uv_dx.zw, at.uv_dy.zw, frame.samples, float(STRETCH));
     const vec4 scale = vec4(first, first, second, second);
     at.uv_dx *= scale;
     at.uv_dy *= scale;

@@ -153,6 +153,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_GROUND_VARIES, weather.ground_varies},
                         {SURFACE_SPEC_FADE, draw->fade != 0},
                         {SURFACE_SPEC_VERTEX_LIGHT, scene.vertex_lamps()},
+                        {SURFACE_SPEC_STRETCH, scene.texture_stretch()},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     if (layered) shaded.specialization.push_back({SURFACE_SPEC_LAYER_FIRST, first});
                     if (layered && own != 0) shaded.specialization.push_back({SURFACE_SPEC_OWN, own});

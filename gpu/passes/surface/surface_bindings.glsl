@@ -23,6 +23,7 @@ layout(constant_id = SURFACE_SPEC_BESIDES) const uint BESIDES = 0u;
 layout(constant_id = SURFACE_SPEC_GROUND_VARIES) const uint GROUND_VARIES = 1u;
 layout(constant_id = SURFACE_SPEC_FALLS) const int FALLS = 1;
 layout(constant_id = SURFACE_SPEC_VERTEX_LIGHT) const uint VERTEX_LIGHT = 0u;
+layout(constant_id = SURFACE_SPEC_STRETCH) const uint STRETCH = 1u;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;
 
 // A compute shader reads both blocks by words, where its driver gains by that: read_constants() at its beginning.

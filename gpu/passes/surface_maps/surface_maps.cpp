@@ -130,7 +130,7 @@ SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size,
       snow_given(given.snow.size != 0),
       water_given(given.water.size != 0),
       trilinear(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
-                             VK_SAMPLER_ADDRESS_MODE_REPEAT))
+                             VK_SAMPLER_ADDRESS_MODE_REPEAT, false, 0.0f, false, device.texture_anisotropy()))
 {
     make_tracks(device, arena, given.tracks);
     if (drops_given) upload_image(device, *ripple_source, {given.drops.rgba});

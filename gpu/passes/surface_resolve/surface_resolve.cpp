@@ -204,7 +204,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     };
     const std::uint32_t lanes = targets.lanes;
     const std::uint32_t kept = parts.weather ? targets.weather_kept() : WEATHER_DRY;
-    const auto variant = [parts, kept, lanes, weather, by_vertex = scene.vertex_lamps(), snow = SnowBits(scene, maps), shares,
+    const auto variant = [parts, kept, lanes, weather, by_vertex = scene.vertex_lamps(), stretch = scene.texture_stretch(), snow = SnowBits(scene, maps), shares,
                           glows](const GpuMaterial& material, bool shedding) {
         const std::uint32_t water = material.water | (shedding && material.sheds ? WATER_STEEP : 0u);
         return std::vector<Specialization>{
@@ -223,6 +223,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_LAYER_ROLES_C, material.layer_roles[2]},
             {SURFACE_SPEC_BESIDES, material.besides | shares},
             {SURFACE_SPEC_GROUND_VARIES, weather.ground_varies},
+            {SURFACE_SPEC_STRETCH, stretch},
             {SURFACE_SPEC_PLACE, weather.place},
             {SURFACE_SPEC_VERTEX_LIGHT, by_vertex},
             {FRAME_SPEC_LANES, lanes},

@@ -71,6 +71,7 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                                                {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
                                                {SURFACE_SPEC_SNOW, weather.snow ? material.snow : 0u},
                                                {SURFACE_SPEC_FADE, draw->fade != 0},
+                                               {SURFACE_SPEC_STRETCH, scene.texture_stretch()},
                                                instanced,
                                                listed};
                         desc.sets.push_back(types_of(material.bindings));

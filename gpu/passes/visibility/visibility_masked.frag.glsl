@@ -36,8 +36,8 @@ void main()
     }
     // The samples of a pixel share its footprint, as where it is shaded: in the level of a whole pixel what is cut out finely, as a bough
     // far away, is a lump, however many samples look.
-    const float finer = footprint_scale(at.uv_dx.xy, at.uv_dy.xy, frame.samples);
-    const float second = footprint_scale(at.uv_dx.zw, at.uv_dy.zw, frame.samples);
+    const float finer = footprint_scale(at.uv_dx.xy, at.uv_dy.xy, frame.samples, float(STRETCH));
+    const float second = footprint_scale(at.uv_dx.zw, at.uv_dy.zw, frame.samples, float(STRETCH));
     at.uv_dx *= vec4(finer, finer, second, second);
     at.uv_dy *= vec4(finer, finer, second, second);
     if (FADE != 0u && faded(draw.fade, at.pixel)) discard;
