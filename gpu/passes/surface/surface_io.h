@@ -21,7 +21,7 @@
 #define SURFACE_SPEC_GROUND_VARIES 42  // 0: [look] ground_variation is off in this frame
 #define SURFACE_SPEC_FALLS 34  // directions that rain and snow come from, some of no share
 #define SURFACE_SPEC_VERTEX_LIGHT 39  // 1: lamps of the scene light by vertex (passes/vertex_light)
-#define SURFACE_SPEC_STRETCH 42  // anisotropy of the sampler of the material's textures; 1: none
+#define SURFACE_SPEC_STRETCH 43  // anisotropy of the sampler of the material's textures; 1: none
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.
