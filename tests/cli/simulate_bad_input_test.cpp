@@ -29,7 +29,7 @@ struct Format {
     const char* name;
     std::string head;
     std::function<std::string(const Row&)> row;
-    bool sorts = false;  // reports may come in any order
+    bool sorts = false;  // rows may come newest first, reports in any order
     const char* twice = "for the same ";  // what it says then of a row that stands there again
 };
 void PrintTo(const Format& f, std::ostream* out)
@@ -79,7 +79,8 @@ const std::vector<Format>& formats()
                  "2021,1,%d,%d,0,?9,%s,-5.0,80,95000,0,0,250,100,50,60,0,0,0,0,200,2.0,5,5,20.0,"
                  "2000,9,999999999,10,0.05,0,88,0.2,0.1,1.0\n",
                  r.day, r.hour + 1, r.temp_c.c_str());
-         }},
+         },
+         true, "in the file again, letter by letter"},
         {"tmy3",
          "723170,\"TEST\",NC,-5.0,36.1,-79.95,270\nDate (MM/DD/YYYY),Time (HH:MM),GHI (W/m^2),DHI "
          "(W/m^2),TotCld (tenths),Dry-bulb (C),RHum (%),Pressure (mbar),Wspd (m/s)\n",
@@ -123,12 +124,14 @@ const std::vector<Format>& formats()
          [](const Row& r) {
              return printed("2020-01-%02dT%02d:00 %s 80 2.0 100 0.1\n", r.day, r.hour,
                             r.temp_c.c_str());
-         }},
+         },
+         true, "in the file again, letter by letter"},
         {"isd-lite", "",
          [](const Row& r) {
              return printed("2020 01 %02d %02d %s -80 10100 180 30 8 0 -9999\n", r.day, r.hour,
                             tenths(r.temp_c).c_str());
-         }},
+         },
+         true, "in the file again, letter by letter"},
         {"ghcn", "",
          [](const Row& r) {
              if (r.hour != 0) return std::string();

@@ -60,6 +60,8 @@ TEST(Cloud, OfLongwaveUndoesTheSky)
     for (double cloud = 0; cloud <= 1.0; cloud += 0.05) {
         const double lw = longwave_from_sky_w_m2(t, vapour, cloud);
         EXPECT_NEAR(cloud_of_longwave(t, vapour, lw), cloud, 1e-9);
+        const double noon = longwave_from_sky_w_m2(t, vapour, cloud, -0.013);
+        EXPECT_NEAR(cloud_of_longwave(t, vapour, noon, -0.013), cloud, 1e-9);
         EXPECT_GE(lw, before);
         before = lw;
     }

@@ -277,6 +277,18 @@ TEST(Radiation, ClearSkyAndClouds)
     EXPECT_NEAR(clear_sky_emissivity(kelvin(15), e2), 0.75407, kDigits5);
     EXPECT_NEAR(longwave_from_sky_w_m2(kelvin(0), e1, 0), 229.004, kDigits3);
     EXPECT_NEAR(longwave_from_sky_w_m2(kelvin(15), e2, 0), 294.779, kDigits3);
+    // Martin & Berdahl 1984: 0.013 more at midnight, as much less at noon, by the sun of the place.
+    const std::int64_t hour_us = 3600LL * 1000000;
+    EXPECT_NEAR(emissivity_of_hour(0, 0.0), 0.013, 1e-12);
+    EXPECT_NEAR(emissivity_of_hour(12 * hour_us, 0.0), -0.013, 1e-12);
+    EXPECT_NEAR(emissivity_of_hour(6 * hour_us, 0.0), 0.0, 1e-12);
+    EXPECT_NEAR(emissivity_of_hour(18 * hour_us, -90.0), -0.013, 1e-12);
+    EXPECT_NEAR(emissivity_of_hour(-36 * hour_us, 0.0), -0.013, 1e-12) << "before 1970";
+    EXPECT_NEAR(longwave_from_sky_w_m2(kelvin(15), e2, 0, -0.013) -
+                    longwave_from_sky_w_m2(kelvin(15), e2, 0),
+                -0.013 * 5.670374419e-8 * std::pow(kelvin(15), 4.0), 1e-9);
+    EXPECT_EQ(longwave_from_sky_w_m2(kelvin(15), e2, 1, -0.013),
+              longwave_from_sky_w_m2(kelvin(15), e2, 1));
     EXPECT_LE(longwave_from_sky_w_m2(kelvin(25), vapour_pressure_pa(kelvin(25), 100), 1),
               kStefanBoltzmann * std::pow(kelvin(25), 4) + 1e-9);
 }

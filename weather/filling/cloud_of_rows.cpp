@@ -69,7 +69,8 @@ private:
         if (std::isnan(sw) && !std::isnan(lw)) {
             const double t = table_[Field::AirTemp][i];
             cloud_[i] =
-                cloud_of_longwave(t, vapour_pressure_pa(t, table_[Field::RelHumidity][i]), lw);
+                cloud_of_longwave(t, vapour_pressure_pa(t, table_[Field::RelHumidity][i]), lw,
+                                  emissivity_of_row(table_, i));
             return From::Sky;
         }
         return From::Nothing;
@@ -148,6 +149,12 @@ bool falls_in(const ForcingTable& table, std::size_t row)
     for (const Field f : {Field::Precip, Field::Rain, Field::Snow})
         if (table.has(f) && table[f][row] >= kFalls_kg_m2_s) return true;
     return false;
+}
+
+double emissivity_of_row(const ForcingTable& table, std::size_t row)
+{
+    const double longitude_deg = table.site.longitude_deg;
+    return std::isnan(longitude_deg) ? 0.0 : emissivity_of_hour(table.time_us[row], longitude_deg);
 }
 
 std::vector<double> cloud_of_rows(const ForcingTable& table, const std::vector<double>& sine,

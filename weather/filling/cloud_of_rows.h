@@ -16,8 +16,12 @@ struct CloudFills {
 /// Whether 0.1 mm/h or more falls in a row.
 bool falls_in(const ForcingTable& table, std::size_t row);
 
-/// Cloud of all rows, 0..1: the file's own where it has one; 1 where something falls or in fog; else
-/// from shortwave (from the diffuse share of it where that is known), else from longwave.
+/// What the hour of a row adds to the emissivity of its clear sky (emissivity_of_hour); 0: no place
+/// is known.
+double emissivity_of_row(const ForcingTable& table, std::size_t row);
+
+/// Cloud of all rows, 0..1: the file's own where it has one; 1 where something falls or in fog;
+/// else from shortwave (from the diffuse share of it where that is known), else from longwave.
 ///
 /// Rows without any of these lie between two that have one. Where those know it from the sun, it is
 /// the light that clouds took in the six hours of sun before and in the six after, weighted by the

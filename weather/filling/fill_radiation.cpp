@@ -154,7 +154,7 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
         if (std::isnan(lw[i])) {
             const double t = table[Field::AirTemp][i];
             lw[i] = longwave_from_sky_w_m2(t, vapour_pressure_pa(t, table[Field::RelHumidity][i]),
-                                           cloud[i]);
+                                           cloud[i], emissivity_of_row(table, i));
             ++longwave;
         }
     }

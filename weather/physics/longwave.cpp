@@ -4,6 +4,7 @@
 
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/formulas.h"
+#include "weather/physics/detail/portable_math.h"
 
 namespace petrichor::weather {
 
@@ -24,19 +25,29 @@ double clear_sky_emissivity(double temp_k, double vapour_pa)
     return detail::clamped(sent / (kStefanBoltzmann * (square * square)), 0.0, 1.0);
 }
 
-double longwave_from_sky_w_m2(double temp_k, double vapour_pa, double cloud_fraction)
+double emissivity_of_hour(std::int64_t time_us, double longitude_deg)
+{
+    constexpr std::int64_t kDay_us = 86400LL * 1000000;
+    const std::int64_t of_day = ((time_us % kDay_us) + kDay_us) % kDay_us;
+    const double days = static_cast<double>(of_day) / static_cast<double>(kDay_us);
+    const double turn = days + longitude_deg / 360.0;
+    return 0.013 * detail::sine_cosine(2.0 * kPi * (turn - std::floor(turn))).cos;
+}
+
+double longwave_from_sky_w_m2(double temp_k, double vapour_pa, double cloud_fraction,
+                              double of_hour)
 {
     const double cloud = detail::clamped(cloud_fraction, 0.0, 1.0);
     const double share = cloud * cloud * std::sqrt(cloud);
-    const double clear = clear_sky_emissivity(temp_k, vapour_pa);
+    const double clear = clear_sky_emissivity(temp_k, vapour_pa) + of_hour;
     // Very damp warm air alone may radiate more than cloud: it never makes a sky colder.
     const double emissivity = clear + detail::larger(kOvercast - clear, 0.0) * share;
     return emissivity * kStefanBoltzmann * (temp_k * temp_k) * (temp_k * temp_k);
 }
 
-double cloud_of_longwave(double temp_k, double vapour_pa, double longwave_w_m2)
+double cloud_of_longwave(double temp_k, double vapour_pa, double longwave_w_m2, double of_hour)
 {
-    const double clear = clear_sky_emissivity(temp_k, vapour_pa);
+    const double clear = clear_sky_emissivity(temp_k, vapour_pa) + of_hour;
     const double black = kStefanBoltzmann * (temp_k * temp_k) * (temp_k * temp_k);
     if (clear >= kOvercast) return 0.0;
     const double share = (longwave_w_m2 / black - clear) / (kOvercast - clear);

@@ -83,11 +83,12 @@ DayWave day_wave(const Surface& surface, double latitude_deg, std::int64_t time_
     // Half of a half-space's admittance is in phase with the surface, half an eighth of a day
     // before it.
     const double half = std::sqrt(0.5 * kTurn_1_s * conductivity * capacity);
+    const double in_phase = kBack_w_m2_k + half;
+    const double admittance = std::sqrt(in_phase * in_phase + half * half);
     DayWave wave;
-    wave.amplitude_k = (1.0 - surface.albedo_dry) * std::max(light_w_m2, 0.0) /
-                       std::hypot(kBack_w_m2_k + half, half);
+    wave.amplitude_k = (1.0 - surface.albedo_dry) * std::max(light_w_m2, 0.0) / admittance;
     wave.damping_m = std::sqrt(2.0 * conductivity / (capacity * kTurn_1_s));
-    wave.warmest_s = 0.5 * kDay_s + std::atan2(half, kBack_w_m2_k + half) / kTurn_1_s;
+    wave.warmest_s = 0.5 * kDay_s + detail::arc_cosine(in_phase / admittance) / kTurn_1_s;
     return wave;
 }
 
