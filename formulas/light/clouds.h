@@ -32,15 +32,22 @@ SHARED_FN float cloud_field(vec2 bent, float footprint, int octaves)
     float weight = 0.55f;
     float wide = footprint;
     float left = 0.55f * 0.5f + 0.2695f * 0.5f + 0.19943f * 2.0738f * 0.62f;  // what the means of all come to
-    for (int i = 0; i < octaves && wide < 1.0f; ++i) {
-        const float mean = i > 1 ? 0.62f : 0.5f;
-        const float v = endless_noise(p, 300u + uint(i));
-        sum += weight * mix(mean, i > 1 ? 1.0f - abs(2.0f * v - 1.0f) : v, clamp(1.5f - 1.5f * wide, 0.0f, 1.0f));
-        left -= weight * mean;
-        p = next_cloud_octave(p);
-        wide *= 2.03f;
-        weight *= i == 0 ? 0.49f : i == 1 ? 0.74f : 0.54f;
-    }
+    // It asks at its end: a CPU's device takes a loop that asks at its beginning once more, for nobody.
+    int i = 0;
+    bool goes = octaves > 0 && wide < 1.0f;
+    do {
+        if (goes) {
+            const float mean = i > 1 ? 0.62f : 0.5f;
+            const float v = endless_noise(p, 300u + uint(i));
+            sum += weight * mix(mean, i > 1 ? 1.0f - abs(2.0f * v - 1.0f) : v, clamp(1.5f - 1.5f * wide, 0.0f, 1.0f));
+            left -= weight * mean;
+            p = next_cloud_octave(p);
+            wide *= 2.03f;
+            weight *= i == 0 ? 0.49f : i == 1 ? 0.74f : 0.54f;
+            ++i;
+            goes = i < octaves && wide < 1.0f;
+        }
+    } while (goes);
     return sum + left;
 }
 
@@ -75,14 +82,20 @@ SHARED_FN float cloud_lumps(vec2 bent, float height, float footprint)
     float wide = 8.365f * footprint;
     float sum = 0.0f;
     float weight = 0.107694f;
-    for (int i = kHeapOctaves; i < kCloudOctaves && wide < 1.0f; ++i) {
-        const float v = endless_noise_3(vec3(p.x, up, p.y), 340u + uint(i));
-        sum += weight * (1.0f - abs(2.0f * v - 1.0f) - kLumpMean) * clamp(1.5f - 1.5f * wide, 0.0f, 1.0f);
-        p = next_cloud_octave(p);
-        up *= 2.03f;
-        wide *= 2.03f;
-        weight *= 0.54f;
-    }
+    int i = kHeapOctaves;
+    bool goes = wide < 1.0f;
+    do {
+        if (goes) {
+            const float v = endless_noise_3(vec3(p.x, up, p.y), 340u + uint(i));
+            sum += weight * (1.0f - abs(2.0f * v - 1.0f) - kLumpMean) * clamp(1.5f - 1.5f * wide, 0.0f, 1.0f);
+            p = next_cloud_octave(p);
+            up *= 2.03f;
+            wide *= 2.03f;
+            weight *= 0.54f;
+            ++i;
+            goes = i < kCloudOctaves && wide < 1.0f;
+        }
+    } while (goes);
     return sum;
 }
 
@@ -101,7 +114,8 @@ SHARED_FN CloudMet cloud_met(vec2 bent, vec2 through, float footprint, float edg
     const float pace = 1.0f / float(kCloudSteps - 1);
     float two_before = -1.0f, before = -1.0f;
     bool inside = false;
-    for (int i = 0; i < steps; ++i) {
+    int i = 0;
+    do {
         const float up = pace * float(i);
         const float above = cloud_field(bent + through * up, footprint, kHeapOctaves) - edge - cloud_rise(up);
         if (!inside && above > met.above) met.up = up;
@@ -118,7 +132,7 @@ SHARED_FN CloudMet cloud_met(vec2 bent, vec2 through, float footprint, float edg
         inside = inside || above > 0.0f;
         two_before = before;
         before = above;
-    }
+    } while (++i < steps);
     return met;
 }
 

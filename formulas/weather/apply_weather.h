@@ -223,9 +223,7 @@ SHARED_FN WeatheredMaterial apply_weather(DryMaterial dry, SurfaceState state, W
     m = apply_water(m, vec2(max(moment.film_albedo * state.film, soaked),
                             mix(moment.film_smoothness, 0.65f, pouring) * state.film),
                     state.water, dry.water_color, dry.porosity);
-    // A loop that ends at once where no water is deep: a CPU takes both sides of a branch.
-    const bool deep = state.deeper_m > 0.0f || (look.water_mud > 1.0f && state.water > 0.0f);
-    for (int once = 0; once < (deep ? 1 : 0); ++once)
+    if (state.deeper_m > 0.0f || (look.water_mud > 1.0f && state.water > 0.0f))
         m = apply_deep_water(m, dry.water_color, state.water, state.deeper_m, state.way, look.water_mud);
     m = apply_snow(m, state.snow, look.snow_color * melting_snow(state.snow, moment.melt_exp), look.snow_specular,
                    melting_smoothness(state.snow_smoothness, state.snow, moment.melt_exp), dry.snow_opacity);

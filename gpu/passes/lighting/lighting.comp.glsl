@@ -199,10 +199,9 @@ void main()
                 // What of a patch's film is frozen is in its glaze already.
                 if (frame.place.grid.levels > 0u) frozen.water_to_snow = frame.place.glazed;
                 film = water_film(dry, state, frozen);
-                // A loop that ends at once where no wall drinks: a CPU takes both sides of a branch.
                 const float wall = state.film > 0.0 ? drinking_wall(g.base_normal.y, dry.porosity * (1.0 - dry.metallic)) : 0.0;
                 const vec3 along = along_wall(g.base_normal);
-                // And one where water runs down, over stone and wood as over plaster; on glass it stands in beads.
+                // Where water runs down, over stone and wood as over plaster; on glass it stands in beads.
                 const float runs = film.share > 0.0 ? upright(g.base_normal.y) * saturate(2.0 * frame.weather.rain) *
                                                           smooth_edge(0.15, 0.3, dry.roughness) : 0.0;
                 RunOff off;

@@ -58,21 +58,20 @@ void main()
         for (uint w = 0u; w < frame.light_words; ++w) {
             uint bits = texelFetch(words, int(first + w)).r;
             uint kept = 0u;
-            while (bits != 0u) {
-                const int bit = findLSB(bits);
-                bits &= bits - 1u;
+            do {
+                const int bit = max(findLSB(bits), 0);
                 const uint light = w * 32u + uint(bit);
-                if (light < frame.directional_count) continue;
+                const bool asked = bits != 0u && light >= frame.directional_count;
+                bits &= bits - 1u;
                 const vec4 sphere = texelFetch(lights, int(light * LIGHT_TEXELS));
                 const vec3 offset = sphere.xyz - frame.camera_m;
                 const float along = dot(offset, frame.forward);
                 const vec2 across = vec2(dot(offset, right), dot(offset, down));
                 const vec2 gap = max(max(box_low - across, across - box_high), vec2(0.0));
                 const float gap_z = max(max(near_m - along, along - far_m), 0.0);
-                if (dot(gap, gap) + gap_z * gap_z > sphere.w * sphere.w) continue;
-                if (!touches_sides(volume, sphere.xyz, sphere.w)) continue;
-                kept |= 1u << uint(bit);
-            }
+                const bool far = dot(gap, gap) + gap_z * gap_z > sphere.w * sphere.w;
+                if (asked && !far && touches_sides(volume, sphere.xyz, sphere.w)) kept |= 1u << uint(bit);
+            } while (bits != 0u);  // a CPU takes a loop that asks at its beginning once more
             if (kept != 0u) {
                 ++count;
                 lists[list + count] = uvec2(w, kept);

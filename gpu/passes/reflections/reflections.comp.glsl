@@ -145,7 +145,8 @@ Hit trace(vec3 origin, vec3 direction)
     // Off the pixel that it starts from.
     const float first = min(1.5 / pixels, 0.5);
     // Steps read at once wait for memory together; they are judged in order.
-    for (int i = 1; i <= steps && met < 0.0; i += kStepsAtOnce) {
+    int i = 1;
+    do {
         WalkStep walk[kStepsAtOnce];
         for (int j = 0; j < kStepsAtOnce; ++j)
             walk[j] = walk_step(ray, mix(first, 1.0, part_of_way(float(i + j) / float(steps))));
@@ -160,7 +161,8 @@ Hit trace(vec3 origin, vec3 direction)
             before = passes ? here.s : before;
             before_m = passes ? here.ray_m : before_m;
         }
-    }
+        i += kStepsAtOnce;
+    } while (i <= steps && met < 0.0);
     // After the walk, so that a CPU's lanes, which meet things at different steps, refine together.
     if (met >= 0.0) {
         float low = before;
@@ -215,7 +217,8 @@ vec3 seen_around(vec2 pixel, float radius, float roughness, vec3 met)
     const float turn = 0.61803399 * float(frame.sample_index);
     const int taps = max(kTaps / int(frame.samples), 1);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < taps; ++i) {
+    int i = 0;
+    do {
         const float k = float(i) + fract(turn + 0.5);
         const float way = radius * sqrt(k / float(taps));
         const float angle = 2.39996323 * k + 6.2831853 * turn;
@@ -223,7 +226,7 @@ vec3 seen_around(vec2 pixel, float radius, float roughness, vec3 met)
         const bool nearer = scene_depth_m(at) < 0.85 * hit_m - 0.05;
         const vec3 seen = picture_at(clamp(ivec2(floor(at)), ivec2(0), picture_size() - 1), roughness);
         sum += nearer ? met : seen;
-    }
+    } while (++i < taps);
     return sum / float(taps);
 }
 
@@ -314,9 +317,7 @@ void main()
         if (hit.confidence > 0.0) {
             vec3 seen = picture_at(ivec2(hit.pixel), roughness);
             const float radius = spread_px(position, hit.pixel, (1.0 - drawn) * alpha);
-            // A loop that ends at once where one pixel is enough: a CPU takes both sides of a branch.
-            for (int k = 0; k < (radius > 0.7 ? 1 : 0); ++k)
-                seen = seen_around(hit.pixel, radius, roughness, seen);
+            if (radius > 0.7) seen = seen_around(hit.pixel, radius, roughness, seen);
             mirrored = mix(mirrored, seen, hit.confidence);
         }
         mirrored_light = weight * mirrored;

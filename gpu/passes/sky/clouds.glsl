@@ -58,33 +58,33 @@ CloudSeen cloud_seen(SkyParams sky, vec3 direction)
     // Towards the sun: over a cloud's half width, and upwards in heaps.
     const vec2 sunward = 0.16 * sky.sun_direction.xz / max(sky.sun_direction.y, 0.35);
     const float rising = tall > 0.0 ? min(0.16 * max(sky.sun_direction.y, 0.0) / max(sky.sun_direction.y, 0.35) / (2.2 * tall), 0.35) : 0.0;
-    // Loops, which are left when no texel of a group needs them: a branch is not.
-    for (int once = 0; once < (sky.cloud_cover > 0.0 ? 1 : 0); ++once) {
+    // Branches: a loop for each would take its body once more than it is asked (docs/platform.md, 2), and those in it again.
+    if (sky.cloud_cover > 0.0) {
         const vec2 bent = at + cloud_bend(at);
         // No finer than the steps of the way: else heaps have a shelf for each.
         const CloudMet met = cloud_met(bent, through, max(footprint, 0.12 * length(through)), edge, steps);
         seen.up = met.up;
-        for (int near = 0; near < (met.above > -0.09 ? 1 : 0); ++near) {
+        if (met.above > -0.09) {
             const vec2 there = bent + through * met.up;
             // What is finer than the heaps is on the flank that is met; tops are seen at a slant.
             float above = met.above;
-            for (int heap = 0; heap < (tall > 0.0 ? 1 : 0); ++heap) {
+            if (tall > 0.0) {
                 const float rough = cloud_lumps(there, 2.2 * tall * met.up, 1.5 * footprint);
                 // A base is flat, what wells up from it is not.
                 above += rough * mix(0.4, 1.0, smoothstep(0.0, 0.25, met.up));
                 seen.crease = 1.0 - smoothstep(-0.05, 0.04, rough);
             }
-            for (int flatly = 0; flatly < (tall > 0.0 ? 0 : 1); ++flatly) above = cloud_field(there, footprint, kCloudOctaves) - edge;
+            if (!(tall > 0.0)) above = cloud_field(there, footprint, kCloudOctaves) - edge;
             seen.hides = smoothstep(0.0, mix(0.11, 0.3, full), above);
             seen.depth = max(above, 0.0) / 0.25;
             float broad = 0.5;
-            for (int wet = 0; wet < (sky.rain > 0.0 ? 1 : 0); ++wet) {
+            if (sky.rain > 0.0) {
                 broad = layer_broad(bent);
                 seen.hidden = rags_hide(direction, sky.time_s * sky.wind_m_s, CLOUD_TEXEL_RAD, sky.rain);
             }
             seen.heavy = layer_heavy(above + edge, broad, reach, sky.rain);
             // A closed layer hides the sun.
-            for (int lit = 0; lit < (seen.hides > 0.0 && sky.cloud_cover < 0.95 ? 1 : 0); ++lit)
+            if (seen.hides > 0.0 && sky.cloud_cover < 0.95)
                 seen.sunward = max(cloud_field(there + sunward, max(footprint, 0.1), kShadeOctaves) - edge -
                                        (tall > 0.0 ? cloud_rise(met.up + rising) : 0.0), 0.0) / 0.25;
         }

@@ -64,8 +64,7 @@ void main()
     float seen_through = 1.0;
     float relief = 1.0;
     vec3 curtains = vec3(1.0);
-    // A loop, which is left when a group of texels is of the land alone: a branch is not.
-    for (int once = 0; once < (direction.y > -0.06 ? 1 : 0); ++once) {
+    if (direction.y > -0.06) {
         radiance = clear_air(seen);
         const CloudSeen clouds = cloud_seen(sky, seen);
         const vec3 cloud = cloud_radiance(sky, seen, clouds, zenith);
@@ -75,7 +74,7 @@ void main()
         seen_through = 1.0 - clouds.hides * haze;
         // Rain and fog are lit by all clouds around them, most by those they hang under.
         relief += 0.5 * sky.rain * clouds.hides * (sky.relief_gain * layer_relief(clouds.heavy, clouds.hidden, sky.rain) - 1.0);
-        for (int wet = 0; wet < (sky.rain * clouds.hides > 0.0 && direction.y < kCurtainEnds ? 1 : 0); ++wet) {
+        if (sky.rain * clouds.hides > 0.0 && direction.y < kCurtainEnds) {
             const vec2 rains = rain_curtains(seen, sky.time_s * sky.wind_m_s, sky.wind_m_s * kCurtainLean_per_m_s, sky.rain);
             curtains = mix(vec3(1.0), rains.x * (1.0 + rains.y * vec3(-0.05, 0.0058, 0.09)), clouds.hides);
         }

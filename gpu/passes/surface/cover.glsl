@@ -182,8 +182,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
             c.snow *= 1.0 - 0.12 * trodden.pressed;  // dense snow is darker
         }
         if ((SNOW & SNOW_BODY) != 0u) {
-            // A loop that ends at once in frost: a CPU takes both sides of a branch.
-            for (int k = 0; k < (frame.weather.melt_exp > 0.0 ? 1 : 0); ++k) {
+            if (frame.weather.melt_exp > 0.0) {
                 const float thaws = at.weather.a < 0.999 ? 1.0 : 0.0;
                 const vec3 wide = max(abs(at.position_dx), abs(at.position_dy));
                 const vec2 slope = thaw_slope(own_body.slope, max(wide.x, wide.z), frame.weather.melt_exp) * thaws;

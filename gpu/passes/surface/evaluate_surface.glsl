@@ -163,9 +163,8 @@ SurfaceData evaluate_surface(SurfaceInput at)
         const bool again = SURFACE_WEATHER == 0 || (WATER != 0u && !is_steep()) || !bumps_come_first();
         normal = normalize(to_world(f, again ? mapped_normal(at, f, shift) : mapped));
     }
-    // A loop that ends at once where ground is level: a CPU takes both sides of a branch.
     const float land = VARIED_GROUND ? frame.look.ground_variation * land_relief_share(at.normal.y) : 0.0;
-    for (int once = 0; once < (land > 0.0 ? 1 : 0); ++once) bend_over_land(normal, cover.normal, at, land);
+    if (land > 0.0) bend_over_land(normal, cover.normal, at, land);
     shed_film(cover, normal);
     data.emission = vec3(0.0);
     if (SURFACE_EMISSION != 0) {

@@ -73,7 +73,11 @@ Exposure exposure_to_sky(SurfaceInput at, bool asked)
     const vec4 lifted = vec4(at.position + stray(at) + at.normal * fall_of(0).lift_m, 1.0);
     if (PLACE != 0u) {
         // Most ask their patch: a loop ends where none of a group does not.
-        for (int k = 0; k < (asked ? FALLS : 0); ++k) fall_on(open, at, lifted, fall_by_texels(k));
+        // It asks at its end: a CPU takes a loop that asks at its beginning once more, for nobody.
+        int k = 0;
+        do {
+            if (asked && k < FALLS) fall_on(open, at, lifted, fall_by_texels(k));
+        } while (++k < (asked ? FALLS : 0));
         return open;
     }
 #define FALL(k) if (FALLS > k) fall_on(open, at, lifted, fall_of(k));

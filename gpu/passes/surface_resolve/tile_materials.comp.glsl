@@ -31,36 +31,42 @@ void main()
     uint last_id = 0u;
     uint last_slot = 0u;
     if ((bits.x | bits.y) == 0u) return;
-    for (int y = low.y; y < high.y; ++y) {
-        for (int x = low.x; x < high.x; ++x) {
+    // Loops that ask at their end: a CPU takes one that asks at its beginning once more.
+    int y = low.y;
+    do {
+        int x = low.x;
+        do {
             const uint at = uint((y - low.y) * RESOLVE_TILE + x - low.x);
             const uint word = at < 32u ? bits.x : bits.y;
             const bool wanted = ((word >> (at & 31u)) & 1u) != 0u;
             const uint id = wanted ? texelFetch(ids, y * params.size.x + x).r : 0u;
             if (LIST != 0u) slots[at] = ~0u;
-            if (id == 0u) continue;
-            if (id != last_id) {
-                last_id = id;
-                const uint facts = texelFetch(draws, int((id & ID_DRAW) - 1u) * RESOLVE_DRAW_TEXELS + 6).z;
-                const bool steep = params.steep != 0u && ((id & ID_STEEP) | (facts & params.steep)) != 0u;
-                const uint list = 2u * (facts & DRAW_MATERIAL) + (steep ? 1u : 0u);
-                last_slot = 0u;
-                while (last_slot < different && found[last_slot] != list) ++last_slot;
-                if (last_slot == different) {
-                    found[different] = list;
-                    number[different++] = 0u;
+            if (id != 0u) {
+                if (id != last_id) {
+                    last_id = id;
+                    const uint facts = texelFetch(draws, int((id & ID_DRAW) - 1u) * RESOLVE_DRAW_TEXELS + 6).z;
+                    const bool steep = params.steep != 0u && ((id & ID_STEEP) | (facts & params.steep)) != 0u;
+                    const uint list = 2u * (facts & DRAW_MATERIAL) + (steep ? 1u : 0u);
+                    last_slot = 0u;
+                    while (last_slot < different && found[last_slot] != list) ++last_slot;
+                    if (last_slot == different) {
+                        found[different] = list;
+                        number[different++] = 0u;
+                    }
                 }
+                ++number[last_slot];
+                if (LIST != 0u) slots[at] = last_slot;
             }
-            ++number[last_slot];
-            if (LIST != 0u) slots[at] = last_slot;
-        }
-    }
+        } while (++x < high.x);
+    } while (++y < high.y);
     for (uint i = 0u; i < different; ++i) number[i] = atomicAdd(counts[found[i]], number[i]);
     if (LIST == 0u) return;
-    for (int y = low.y; y < high.y; ++y) {
-        for (int x = low.x; x < high.x; ++x) {
+    y = low.y;
+    do {
+        int x = low.x;
+        do {
             const uint slot = slots[(y - low.y) * RESOLVE_TILE + x - low.x];
             if (slot != ~0u) pixels[number[slot]++] = uint(y) * 65536u + uint(x);
-        }
-    }
+        } while (++x < high.x);
+    } while (++y < high.y);
 }
