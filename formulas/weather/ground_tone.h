@@ -38,11 +38,10 @@ SHARED_FN GroundGrowth ground_growth(vec2 xz, float width_m)
     const vec2 bent = turned + vec2(40.0f * near, 9.0f * fine);
     const float wide = ground_octave(bent + 17.0f, 88.0f, 227u, width_m);
     const float land = ground_octave(xz + vec2(9.0f * near, 120.0f * wide), 330.0f, 229u, width_m);
-    const float grain = ground_octave(other + 1.3f, 1.9f, 233u, width_m);
     const float country = ground_octave(turned + vec2(350.0f * land, 160.0f * wide), 1100.0f, 239u, width_m);
     GroundGrowth growth;
-    growth.moist = 0.5f * country + 0.6f * land + 0.5f * wide + 0.42f * near + 0.32f * fine + 0.22f * grain;
-    growth.other = 0.1f * country + 0.55f * wide - 0.6f * land + 0.42f * near - 0.36f * fine - 0.2f * grain;
+    growth.moist = 0.5f * country + 0.6f * land + 0.5f * wide + 0.42f * near + 0.36f * fine;
+    growth.other = 0.1f * country + 0.55f * wide - 0.6f * land + 0.42f * near - 0.40f * fine;
     return growth;
 }
 SHARED_FN float ground_moisture(vec2 xz, float width_m) { return ground_growth(xz, width_m).moist; }
