@@ -83,7 +83,8 @@ PictureOptions guard_pictures(SurfaceClass surface);
 
 /// Pictures of whole floors, a few pixels of each, with which two lobes are weighed at last: 24 views like that of
 /// reference_pictures() and suns from all sides, 18 to 58 degrees high, and windows ahead, all drawn from a seed:
-/// every material has its own. kHeldOutViews cases one after another have the same light.
+/// every material has its own. kHeldOutViews cases one after another have the same light. One view in six has pixels
+/// four times as large, for levels that the others do not see.
 inline constexpr int kHeldOutViews = 4;
 PictureOptions held_out_pictures(SurfaceClass surface, std::uint32_t seed);
 
