@@ -11,10 +11,14 @@
 #include <vector>
 
 #include "texproc/prefilter/detail/fit_parts.h"
+#include "texproc/prefilter/detail/look_price.h"
 #include "texproc/study/fresh_maps.h"
 
 namespace petrichor::texproc {
 namespace {
+
+using detail::cheapest_steps;
+using detail::look_price;
 
 ScoredMaps material(const std::string& word, int size = 96)
 {
@@ -146,6 +150,76 @@ TEST(SecondLook, SameNumbersForAnyThreads)
     for (std::size_t k = 1; k < one.roughness.size(); ++k) {
         EXPECT_EQ(one.roughness[k].pixels, three.roughness[k].pixels) << k;
         EXPECT_EQ(one.second.normal[k].pixels, three.second.normal[k].pixels) << k;
+    }
+}
+
+// What a form says of a small step is what pictures say when it is taken.
+TEST(PictureForms, FollowSmallSteps)
+{
+    const ScoredMaps maps = material("rivets", 64);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pictures());
+    Prefiltered chain = two_lobes(maps);
+    const Prefiltered before = chain;
+    PictureBench::Retake retake(bench);
+    const std::vector<PictureScore> scores = retake.score(chain, ~0u);
+    // Rougher second lobes on level 2, more of them on level 3.
+    const auto step = [&](std::size_t i, float times) {
+        const std::size_t k = i == 0 ? 2 : 3;
+        auto part = i == 0 ? &SecondLobe::roughness : &SecondLobe::share;
+        (chain.second.*part)[k] = (before.second.*part)[k];
+        for (float& number : (chain.second.*part)[k].pixels) number += 0.02f * times;
+        return k;
+    };
+    const PictureForms forms = retake.forms(chain, 2, [&](std::size_t i) {
+        chain = before;
+        return i < 2 ? step(i, 1.0f) : std::size_t{0};
+    });
+    ASSERT_EQ(forms.cases.size(), scores.size());
+    for (const std::size_t none : {0u, 1u}) EXPECT_NE(forms.cases[0].slope[none], 0.0f) << "or this shows nothing";
+    const float x[] = {0.5f, -0.7f};
+    step(0, x[0]), step(1, x[1]);
+    const std::vector<PictureScore> after = bench.score(chain);
+    for (std::size_t c = 0; c < scores.size(); ++c) {
+        const PictureForms::Case& form = forms.cases[c];
+        EXPECT_NEAR(form.error, scores[c].rmse * scores[c].rmse, 1e-3 * form.error) << scores[c].name;
+        double said = form.error;
+        for (std::size_t i = 0; i < 2; ++i) {
+            said += 2.0 * static_cast<double>(x[i] * form.slope[i]);
+            for (std::size_t j = 0; j < 2; ++j) said += static_cast<double>(x[i] * x[j] * form.square[2 * i + j]);
+        }
+        const double change = after[c].rmse * after[c].rmse - form.error;
+        EXPECT_NEAR(said - form.error, change, 0.1 * std::abs(change) + 2e-4 * form.error) << scores[c].name;
+    }
+}
+
+// One light, better by x up to where its errors are least; another that this makes worse than plain mips.
+TEST(LookPrice, ALightThatGetsWorseHoldsBackWhatAnotherGains)
+{
+    const auto light = [](double error, float slope) {
+        return std::vector<PictureForms::Case>(kHeldOutViews, {error, {slope}, {0.01f}});
+    };
+    PictureForms forms{1, light(1.0, -0.1f)};
+    const std::vector<PictureScore> plain(2 * kHeldOutViews, {"", 1.0, 1.0});
+    const float low[] = {-20.0f}, high[] = {20.0f};
+    EXPECT_NEAR(cheapest_steps(forms, plain, low, high, 1).front(), 10.0f, 0.5f);
+    const float near[] = {3.0f};
+    EXPECT_NEAR(cheapest_steps(forms, plain, low, near, 1).front(), 3.0f, 0.01f) << "no farther than it may";
+    for (const PictureForms::Case& c : light(0.9, 0.02f)) forms.cases.push_back(c);  // as plain where x is 1.9
+    const float held = cheapest_steps(forms, plain, low, high, 1).front();
+    EXPECT_GT(held, 0.5f);
+    EXPECT_LT(held, 3.0f);
+}
+
+TEST(LookPrice, ItsSlopeIsThatOfThePrice)
+{
+    std::vector<double> changes(3 * kHeldOutViews), slope(changes.size()), unused = slope;
+    for (std::size_t i = 0; i < changes.size(); ++i) changes[i] = 0.03 * std::sin(static_cast<double>(7 * i + 1));
+    look_price(changes, slope);
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        constexpr double kStep = 1e-5;
+        std::vector<double> more = changes, less = changes;
+        more[i] += kStep, less[i] -= kStep;
+        EXPECT_NEAR((look_price(more, unused) - look_price(less, unused)) / (2.0 * kStep), slope[i], 1e-3) << i;
     }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -82,8 +83,9 @@ PictureOptions guard_pictures(SurfaceClass surface);
 
 /// Pictures of whole floors, a few pixels of each, with which two lobes are weighed at last: 24 views like that of
 /// reference_pictures() and suns from all sides, 18 to 58 degrees high, and windows ahead, all drawn from a seed:
-/// every material has its own. kHeldOutViews cases one after another have the same light.
-inline constexpr int kHeldOutViews = 8;
+/// every material has its own. kHeldOutViews cases one after another have the same light. One view in six has pixels
+/// four times as large, for levels that the others do not see.
+inline constexpr int kHeldOutViews = 4;
 PictureOptions held_out_pictures(SurfaceClass surface, std::uint32_t seed);
 
 /// One case of one material: display-referred, 0..1.
@@ -91,6 +93,16 @@ struct PictureScore {
     std::string name;      ///< view, light and material
     double rmse = 0.0;     ///< over pixels and frames
     double flicker = 0.0;  ///< mean over the pixels of the standard deviation of the error in time
+};
+
+/// Of each case: (error + 2 slope x + x square x) is the mean of the squares over pixels and frames, x in steps.
+struct PictureForms {
+    std::size_t count = 0;
+    struct Case {
+        double error = 0.0;
+        std::vector<float> slope, square;  ///< count; count times count
+    };
+    std::vector<Case> cases;
 };
 
 /// Truth of one material, rendered once and kept, against which any number of chains is held.
@@ -165,6 +177,12 @@ public:
 
     /// changed: a bit for each level, set where the chain is not what it was; the first time all are.
     std::vector<PictureScore> score(const Prefiltered& chain, std::uint32_t changed);
+
+    /// The squared error of each case about the chain that was scored last, as a square form of small changes of
+    /// `count` numbers, for which errors are taken for linear. vary(i) changes `chain` by a step of number i alone
+    /// and returns the one level that this changes; vary(count) takes the last one back.
+    PictureForms forms(const Prefiltered& chain, std::size_t count,
+                       const std::function<std::size_t(std::size_t)>& vary) const;
 
 private:
     struct State;

@@ -15,8 +15,11 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 // A pixel of twelve each way: so many pictures cost as much as four large ones, and what one of them shows by
 // chance counts little among the others under its light.
 constexpr int kEvery = 12, kViews = 24;
+// One view in so many has pixels so many times as large: levels that a small map shows to nobody else.
+constexpr int kLarge = 6;
+constexpr double kLargeCovers = 4.0;
 // Suns from everywhere in three bands of height, more of them ahead, where highlights are narrow, and windows there.
-constexpr int kSides = 16, kAhead = 16, kWindows = 8;
+constexpr int kSides = 32, kAhead = 32, kWindows = 16;
 constexpr double kBands[] = {18.0, 30.0, 43.0, 58.0};
 constexpr double kAheadWide = 80.0, kMetalSky = 0.1;
 
@@ -41,7 +44,7 @@ PictureOptions held_out_pictures(SurfaceClass surface, std::uint32_t seed)
                            .field_of_view_deg = between(28.0, 40.0),
                            .width = 300 / kEvery,
                            .rows = 108 / kEvery,
-                           .covers = 1.0 / kEvery,
+                           .covers = (view % kLarge == kLarge - 1 ? kLargeCovers : 1.0) / kEvery,
                            .step_right_m = step * std::cos(turned),
                            .step_ahead_m = step * std::sin(turned)});
     }

@@ -10,6 +10,7 @@ using detail::FloorPixel;
 using detail::FloorPlan;
 using detail::Level;
 using detail::RowSums;
+using detail::shown;
 using detail::Taps;
 
 struct PictureBench::Retake::State {
@@ -93,6 +94,71 @@ std::vector<PictureScore> PictureBench::Retake::score(const Prefiltered& chain,
         s.add_up(v, view.cases, view.rows, scores);
     }
     return scores;
+}
+
+PictureForms PictureBench::Retake::forms(const Prefiltered& chain, std::size_t count,
+                                         const std::function<std::size_t(std::size_t)>& vary) const
+{
+    const PictureBench::State& s = state_->bench;
+    std::vector<Level> varied;
+    std::vector<std::size_t> level_of;
+    for (std::size_t i = 0; i < count; ++i) {
+        level_of.push_back(vary(i));
+        varied.push_back(s.level_of(chain, level_of.back()));
+    }
+    vary(count);
+    const std::vector<const Level*> levels = s.merged(state_->own);
+    PictureForms forms{count, std::vector<PictureForms::Case>(s.options.cases.size())};
+    for (PictureForms::Case& c : forms.cases) c.slope.resize(count), c.square.resize(count * count);
+    // View by view: each adds up its rows in their order.
+    parallel_for(state_->views.size(), s.options.threads, [&](std::size_t v) {
+        const State::View& view = state_->views[v];
+        if (view.cases.empty()) return;
+        const std::size_t width = static_cast<std::size_t>(s.options.views[v].width);
+        const std::size_t rows = view.rows.size(), frames = static_cast<std::size_t>(s.options.frames);
+        const float each = 1.0f / static_cast<float>(width * rows * frames);
+        std::vector<const Level*> other = levels;
+        for (std::size_t y = 0; y < rows; ++y) {
+            std::vector<std::size_t> seen;
+            for (std::size_t i = 0; i < count; ++i)
+                if (view.sees[y] & (1u << level_of[i])) seen.push_back(i);
+            std::vector<std::vector<float>> line(view.cases.size(), std::vector<float>(width));
+            std::vector<std::vector<std::vector<float>>> lines(seen.size(), line);
+            for (std::size_t f = 0; f < frames; ++f) {
+                const auto shade_all = [&](std::vector<std::vector<float>>& to) {
+                    for (std::size_t x = 0; x < width; ++x) {
+                        const State::Pixel& pixel = view.pixels[(y * frames + f) * width + x];
+                        s.shade_pixel(other, pixel.taps, pixel.to_eye, view.cases, x, to);
+                    }
+                };
+                shade_all(line);
+                for (std::size_t i = 0; i < seen.size(); ++i) {
+                    const std::size_t level = level_of[seen[i]];
+                    other[level] = &varied[seen[i]];
+                    shade_all(lines[i]);
+                    other[level] = levels[level];
+                }
+                std::vector<float> change(seen.size());
+                for (std::size_t c = 0; c < view.cases.size(); ++c) {
+                    const std::size_t which = view.cases[c];
+                    PictureForms::Case& to = forms.cases[which];
+                    for (std::size_t x = 0; x < width; ++x) {
+                        const float now = shown(line[c][x], s.exposure[which]);
+                        const float error = now - s.truth[which][(f * rows + y) * width + x];
+                        to.error += static_cast<double>(each * error * error);
+                        for (std::size_t i = 0; i < seen.size(); ++i) {
+                            change[i] = shown(lines[i][c][x], s.exposure[which]) - now;
+                            to.slope[seen[i]] += each * error * change[i];
+                        }
+                        for (std::size_t i = 0; i < seen.size(); ++i)
+                            for (std::size_t j = 0; j < seen.size(); ++j)
+                                to.square[seen[i] * count + seen[j]] += each * change[i] * change[j];
+                    }
+                }
+            }
+        }
+    });
+    return forms;
 }
 
 }  // namespace petrichor::texproc

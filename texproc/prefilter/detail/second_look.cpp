@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -9,26 +10,45 @@
 #include "base/hash.h"
 #include "texproc/prefilter/detail/chain_fit.h"
 #include "texproc/prefilter/detail/fit_parts.h"
+#include "texproc/prefilter/detail/look_price.h"
 #include "texproc/prefilter/detail/picture_cost.h"
 
 namespace petrichor::texproc::detail {
 
 namespace {
 
-// What a light costs that is worse than with plain mips in the mean of its views, and what each of them does, beside
-// their part of the mean.
-constexpr double kWorseLight = 12.0, kWorseView = 3.0;
 constexpr double kClear = 1e-3;  // a smaller gain changes nothing
-constexpr int kSweeps = 2;
+constexpr int kRounds = 5;
+constexpr float kFarthest = 4.0f;                 // so many steps of a number in a round
+constexpr float kShares[] = {1.0f, 0.5f, 0.25f};  // of what the forms say, which holds for small steps
 
-// Of a level, in shares of what it was: how far it is from plain mips, how much of its own its roughness and its
-// normals have of that, how wide its two lobes are, how much the second one counts; how often the base colour is
-// darkened for its slopes, and by how much more.
-struct Weighed {
-    float whole = 1.0f, roughness = 1.0f, normal = 1.0f, width = 1.0f, second_width = 1.0f, second = 1.0f;
-    float dark = 1.0f, dim = 0.0f;
-    bool operator==(const Weighed&) const = default;
+// Of a level: how far it is from plain mips; how much of its own its roughness and either normal have of that; how
+// wide its two lobes are, how much the second one counts; how often the base colour is darkened for its slopes, and
+// by how much more.
+enum Number : std::size_t {
+    kWhole, kOfRoughness, kOfNormal, kOfSecondNormal, kWidth, kSecondWidth, kSecond, kDark, kDim, kNumbers
 };
+struct Range {
+    float fitted, least, most, step;
+};
+constexpr Range kRanges[kNumbers] = {
+    {1.0f, 0.0f, 1.0f, -0.1f},  // whole
+    {1.0f, 0.0f, 1.3f, -0.1f},  // of its roughness
+    {1.0f, 0.0f, 1.3f, -0.1f},  // and its normals
+    {1.0f, 0.0f, 1.3f, -0.1f},
+    {1.0f, 0.4f, 2.5f, 0.05f},  // widths
+    {1.0f, 0.4f, 2.5f, 0.05f},
+    {1.0f, 0.0f, 2.0f, -0.1f},   // second
+    {1.0f, 0.0f, 3.0f, 0.1f},    // dark
+    {0.0f, -0.05f, 0.1f, 0.01f}  // dim
+};
+using Weighed = std::array<float, kNumbers>;
+Weighed as_fitted()
+{
+    Weighed w;
+    for (std::size_t i = 0; i < kNumbers; ++i) w[i] = kRanges[i].fitted;
+    return w;
+}
 
 class Look {
 public:
@@ -40,7 +60,7 @@ public:
           retake_(bench),
           start_(fitted_levels(chain)),
           plain_(start_),
-          now_(start_.size()),
+          now_(start_.size(), as_fitted()),
           best_(now_)
     {
         const std::vector<Image> roughness = bench.plain_roughness();
@@ -60,15 +80,14 @@ public:
     {
         if (levels_.empty()) return false;
         cost_ = cost(best_);
-        for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        float farthest = kFarthest;
+        for (int round = 0; round < kRounds; ++round) {
             const double before = cost_;
-            together();
-            for (std::size_t i = levels_.size(); i-- > 0;) one(levels_[i]);  // the coarsest first
-            if (cost_ > before - kClear) break;
+            if (!go(farthest)) farthest *= 0.5f;
+            if (cost_ > before - kClear && farthest < 1.0f) break;
         }
-        together();
         show(best_);
-        return !(best_ == std::vector<Weighed>(best_.size()));
+        return best_ != std::vector<Weighed>(best_.size(), as_fitted());
     }
 
 private:
@@ -83,47 +102,41 @@ private:
         }
     }
 
-    // The same steps of one level or of all, larger ones of one.
-    template <class Change>
-    void steps(float step, const Change& change)
+    // All numbers at once to where the forms about the best ones cost least; whether that went all the way.
+    bool go(float farthest)
     {
-        const float less = 1.0f - step, more = 1.0f + step, width = 0.2f * step;
-        change([&](Weighed& w) { w.whole *= less; });
-        change([&](Weighed& w) { w.whole = std::min(w.whole * more, 1.0f); });
-        change([&](Weighed& w) { w.roughness *= less; });
-        change([&](Weighed& w) { w.normal *= less; });
-        for (const float wide : {1.0f - width, 1.0f + width}) {
-            change([&](Weighed& w) { w.width *= wide; });
-            change([&](Weighed& w) { w.second_width *= wide; });
+        cost(best_);  // what the forms are about
+        const std::size_t count = levels_.size() * kNumbers;
+        const PictureForms forms = retake_.forms(chain_, count, [&](std::size_t i) {
+            std::vector<Weighed> levels = best_;
+            if (i < count) number(levels, i) += kRanges[i % kNumbers].step;
+            changed_ |= show(levels);
+            return i < count ? levels_[i / kNumbers] : 0;
+        });
+        std::vector<float> low(count, 0.0f), high = low;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Range& range = kRanges[i % kNumbers];
+            if (!options_.base_colors && (i % kNumbers == kDark || i % kNumbers == kDim)) continue;
+            const float at = number(best_, i);
+            const float to_least = (range.least - at) / range.step, to_most = (range.most - at) / range.step;
+            low[i] = std::max(std::min(to_least, to_most), -farthest);
+            high[i] = std::min(std::max(to_least, to_most), farthest);
         }
-        for (const float second : {less, more}) change([&](Weighed& w) { w.second *= second; });
-        if (!options_.base_colors) return;
-        for (const float dark : {less, more}) change([&](Weighed& w) { w.dark *= dark; });
-        for (const float dim : {0.03f * step, -0.03f * step}) change([&](Weighed& w) { w.dim += dim; });
-    }
-    void together()
-    {
-        steps(0.2f, [&](const auto& set) {
+        const std::vector<float> steps = cheapest_steps(forms, plain_scores_, low, high, kNumbers);
+        for (const float share : kShares) {
             std::vector<Weighed> levels = best_;
-            for (Weighed& level : levels) set(level);
-            attempt(levels);
-        });
+            for (std::size_t i = 0; i < count; ++i) number(levels, i) += share * steps[i] * kRanges[i % kNumbers].step;
+            const double tried = cost(levels);
+            if (!(tried < cost_)) continue;
+            cost_ = tried;
+            best_ = levels;
+            return share == 1.0f;
+        }
+        return false;
     }
-    void one(std::size_t k)
+    float& number(std::vector<Weighed>& levels, std::size_t i) const
     {
-        steps(0.3f, [&](const auto& set) {
-            std::vector<Weighed> levels = best_;
-            set(levels[k]);
-            attempt(levels);
-        });
-    }
-    void attempt(const std::vector<Weighed>& levels)
-    {
-        if (levels == best_) return;
-        const double tried = cost(levels);
-        if (!(tried < cost_ - kClear)) return;
-        cost_ = tried;
-        best_ = levels;
+        return levels[levels_[i / kNumbers]][i % kNumbers];
     }
 
     // Which levels of the chain that changes.
@@ -142,41 +155,41 @@ private:
     {
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             if (start_[k][i].empty()) continue;
-            const bool rough = i == kRoughness || i == kSecondRoughness, normal = i == kNormal || i == kSecondNormal;
-            mix(plain_[k][i], start_[k][i], w.whole * (rough ? w.roughness : normal ? w.normal : 1.0f), part(k, i));
+            const bool rough = i == kRoughness || i == kSecondRoughness;
+            const float own = rough ? w[kOfRoughness]
+                              : i == kNormal       ? w[kOfNormal]
+                              : i == kSecondNormal ? w[kOfSecondNormal]
+                                                   : 1.0f;
+            mix(plain_[k][i], start_[k][i], w[kWhole] * own, part(k, i));
         }
-        widen(part(k, kRoughness), w.width);
+        widen(part(k, kRoughness), w[kWidth]);
         if (!start_[k][kSecondShare].empty()) {
-            widen(part(k, kSecondRoughness), w.second_width);
-            for (float& share : part(k, kSecondShare).pixels) share = std::min(share * w.second, 1.0f);
+            widen(part(k, kSecondRoughness), w[kSecondWidth]);
+            for (float& share : part(k, kSecondShare).pixels) share = std::min(share * w[kSecond], 1.0f);
         }
         if (!options_.base_colors || start_[k][kBaseShare].empty()) return;
         for (float& share : part(k, kBaseShare).pixels)
-            share = std::clamp(1.0f - w.dim + w.dark * (share - 1.0f), 0.0f, 1.0f);
+            share = std::clamp(1.0f - w[kDim] + w[kDark] * (share - 1.0f), 0.0f, 1.0f);
     }
     Image& part(std::size_t k, std::size_t i) { return (*parts_[i])[k]; }
     void widen(Image& level, float width) const
     {
-        if (width == 1.0f) return;
         for (float& stored : level.pixels)
             stored = stored_value(std::clamp(perceptual(stored, options_) * width, 0.0f, 1.0f), options_);
     }
 
     double cost(const std::vector<Weighed>& levels)
     {
-        const std::vector<PictureScore> scores = retake_.score(chain_, show(levels));
-        double sum = 0.0;
-        for (std::size_t first = 0; first < scores.size(); first += kHeldOutViews) {
-            double light = 0.0;
-            for (std::size_t i = first; i < first + kHeldOutViews; ++i) {
-                const double view = change_of(scores[i].rmse, plain_scores_[i].rmse);
-                light += view;
-                sum += kWorseView * std::max(view, 0.0) +
-                       kFlickerWeight * change_of(scores[i].flicker, plain_scores_[i].flicker);
-            }
-            sum += light + kWorseLight * std::max(light, 0.0);
+        changed_ |= show(levels);
+        const std::vector<PictureScore> scores = retake_.score(chain_, changed_);
+        changed_ = 0;
+        std::vector<double> changes, unused(scores.size());
+        double flicker = 0.0;
+        for (std::size_t i = 0; i < scores.size(); ++i) {
+            changes.push_back(change_of(scores[i].rmse, plain_scores_[i].rmse));
+            flicker += change_of(scores[i].flicker, plain_scores_[i].flicker);
         }
-        return sum / static_cast<double>(scores.size());
+        return look_price(changes, unused) + kFlickerWeight * flicker / static_cast<double>(scores.size());
     }
 
     const PrefilterOptions& options_;
@@ -188,6 +201,7 @@ private:
     FitLevels plain_;
     std::vector<std::size_t> levels_{};
     std::vector<Weighed> now_, best_;
+    std::uint32_t changed_ = 0;  // levels, since the last score
     double cost_ = 0.0;
 };
 
