@@ -194,18 +194,18 @@ TEST_F(NodeTracksPicture, AreThereOnceItHasPassedAndAFrameAloneIsThatOfTheRun)
 {
     const Workplace place("node_tracks");
     Sequence run = sequence_of(place);
-    gpu::Renderer renderer = renderer_of(run);
-    const gpu::RenderResult first = renderer.render(frame_at(run, {0}).frame);
-    const gpu::RenderResult middle = renderer.render(frame_at(run, {12}).frame);
-    const gpu::RenderResult last = renderer.render(frame_at(run, {24}).frame);
-    const gpu::RenderResult again = renderer.render(frame_at(run, {12}).frame);
+    gpu::Renderer drawn = renderer_of(run);
+    const gpu::RenderResult first = drawn.render(frame_at(run, {0}).frame);
+    const gpu::RenderResult middle = drawn.render(frame_at(run, {12}).frame);
+    const gpu::RenderResult last = drawn.render(frame_at(run, {24}).frame);
+    const gpu::RenderResult again = drawn.render(frame_at(run, {12}).frame);
     EXPECT_EQ(middle.display, again.display);
     Sequence other = sequence_of(place);
     gpu::Renderer fresh = renderer_of(other);
     const gpu::RenderResult alone = fresh.render(frame_at(other, {12}).frame);
     EXPECT_EQ(middle.display, alone.display);
     EXPECT_EQ(middle.aovs[0].pixels, alone.aovs[0].pixels);
-    EXPECT_TRUE(renderer.validation_messages().empty() && fresh.validation_messages().empty());
+    EXPECT_TRUE(drawn.validation_messages().empty() && fresh.validation_messages().empty());
     // Snow of some 20 cm, pressed by more than half of it.
     const float behind = lowest(first, -1.2f), ahead = lowest(first, 1.5f);
     EXPECT_GT(behind, 0.1f);

@@ -85,15 +85,15 @@ TEST(WaterFilm, IsNotThereWhereItIsDryOrBuriedOrFrozen)
     EXPECT_EQ(film_of(0.0f, 0.0f).share, 0.0f);
     EXPECT_EQ(film_of(0.0f, 1.0f).share, 0.0f) << "it rains elsewhere";
     EXPECT_GT(film_of(0.5f, 0.0f).share, 0.95f);
-    EXPECT_EQ(film_of(0.5f, 0.0f, {0.0f, 0.0f, 0.0f, 0.0f, 0.4f}).share, 0.0f) << "under a roof";
-    EXPECT_EQ(film_of(0.5f, 0.0f, {1.0f, 1.0f, 0.0f, 0.0f, 0.4f}).share, 0.0f) << "in a puddle";
-    EXPECT_EQ(film_of(0.5f, 0.0f, {1.0f, 0.0f, 1.0f, 0.0f, 0.4f}).share, 0.0f) << "below snow";
-    EXPECT_EQ(film_of(0.5f, 0.0f, {1.0f, 0.0f, 0.0f, 1.0f, 0.4f}).share, 0.0f) << "below hoar";
+    EXPECT_EQ(film_of(0.5f, 0.0f, {0.0f, 0.0f, 0.0f, 0.0f, 0.4f, 0.0f, 0.0f}).share, 0.0f) << "under a roof";
+    EXPECT_EQ(film_of(0.5f, 0.0f, {1.0f, 1.0f, 0.0f, 0.0f, 0.4f, 0.0f, 0.0f}).share, 0.0f) << "in a puddle";
+    EXPECT_EQ(film_of(0.5f, 0.0f, {1.0f, 0.0f, 1.0f, 0.0f, 0.4f, 0.0f, 0.0f}).share, 0.0f) << "below snow";
+    EXPECT_EQ(film_of(0.5f, 0.0f, {1.0f, 0.0f, 0.0f, 1.0f, 0.4f, 0.0f, 0.0f}).share, 0.0f) << "below hoar";
     // What is frozen is taken out of the film once, by whoever says how much there is: a patch's may be thawed.
     WeatherMoment half{};
     half.film_smoothness = 0.5f;
     half.water_to_snow = 0.6f;
-    EXPECT_EQ(water_film(stone(), {1.0f, 0.0f, 0.0f, 0.0f, 0.4f}, half).share, film_of(0.5f, 0.0f).share);
+    EXPECT_EQ(water_film(stone(), {1.0f, 0.0f, 0.0f, 0.0f, 0.4f, 0.0f, 0.0f}, half).share, film_of(0.5f, 0.0f).share);
     const vec3 v = direction(0.4f, 0.0f), l = direction(0.6f, 2.0f), base(0.2f, 0.3f, 0.4f);
     const WaterFilm none = film_of(0.0f, 0.0f);
     for (int c = 0; c < 3; ++c) EXPECT_EQ(under_film(base, none, v, l)[c], base[c]);

@@ -71,7 +71,9 @@ TEST(Splashes, LargeDropsHitWhereRingsBegin)
                 }
             }
             EXPECT_GT(over_rings, 50u) << rate;
-            if (small > 0) EXPECT_LE(most, least + 1e-6f) << "those without rings are the smaller ones";
+            if (small > 0) {
+                EXPECT_LE(most, least + 1e-6f) << "those without rings are the smaller ones";
+            }
         }
     }
 }

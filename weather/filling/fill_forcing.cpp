@@ -171,7 +171,7 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     fill_humidity(table, report);
     fill_pressure(table, report);
     fill_precipitation(table, report);
-    fill_radiation(table, report, options);
+    fill_radiation(table, report);
     const bool estimate = options.missing_precip == MissingPrecip::Estimate &&
                           !table.has(Field::Rain) && !table.has(Field::Snow);
     if (estimate) estimate_precipitation(table, report, precip_known);

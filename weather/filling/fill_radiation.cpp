@@ -117,7 +117,7 @@ void divide_for_the_sun(ForcingTable& table, ReadReport& report, const FillOptio
                         " more rows of at most an hour, for the sun to rise and set in them"});
 }
 
-void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& options)
+void fill_radiation(ForcingTable& table, ReadReport& report)
 {
     const std::size_t n = table.rows();
     auto& net = table[Field::NetShortwave];

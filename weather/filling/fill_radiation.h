@@ -13,7 +13,7 @@ void divide_for_the_sun(ForcingTable& table, ReadReport& report, const FillOptio
 
 /// Cloud, then shortwave, then longwave: each from what is there. Needs air temperature and
 /// humidity; net shortwave, where it is used, follows the shortwave made here.
-void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& options);
+void fill_radiation(ForcingTable& table, ReadReport& report);
 
 }  // namespace petrichor::weather
 
