@@ -17,7 +17,7 @@ foreach(room IN LISTS rooms)
     set_target_properties(petrichor_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS petrichor_${room} EXPORT petrichor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
     install(DIRECTORY ${room} DESTINATION ${petrichor_headers}
-        FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN "*_lookup.inc" PATTERN "*_search.inc" PATTERN "air_radiance.inc" PATTERN "detail" EXCLUDE)
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN "*_lookup.inc" PATTERN "*_search.inc" PATTERN "air_radiance.inc" PATTERN "probes_from_*.inc" PATTERN "detail" EXCLUDE)
 endforeach()
 # One file a language, for engines that find no includes (docs/shaders.md).
 set(shader_library ${PROJECT_BINARY_DIR}/shader_library)
