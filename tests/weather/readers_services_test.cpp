@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "tests/weather/archive_samples.h"
+#include "tests/weather/sample_texts.h"
 #include "weather/readers/air_scale.h"
 
 namespace petrichor::weather {
@@ -17,27 +18,6 @@ using namespace archive_samples;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-std::string corpus(const char* name)
-{
-    return text_of(std::filesystem::path(PETRICHOR_SAMPLES) / name);
-}
-std::string with(std::string text, const std::string& from, const std::string& to)
-{
-    EXPECT_NE(text.find(from), std::string::npos) << from;
-    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-        text.replace(at, from.size(), to);
-    return text;
-}
-std::string refusal(const std::string& text, const ReadOptions& options = {})
-{
-    try {
-        raw(text, options);
-    } catch (const Error& error) {
-        return std::string(error.what()) + " | " + error.fix();
-    }
-    return "read";
-}
 
 TEST(AirScale, HumidityTellsTheScale)
 {

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "tests/weather/archive_samples.h"
+#include "tests/weather/sample_texts.h"
 
 namespace petrichor::weather {
 namespace {
@@ -20,26 +21,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string corpus(const char* name)
-{
-    return text_of(std::filesystem::path(PETRICHOR_SAMPLES) / name);
-}
-std::string with(std::string text, const std::string& from, const std::string& to)
-{
-    EXPECT_NE(text.find(from), std::string::npos) << from;
-    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-        text.replace(at, from.size(), to);
-    return text;
-}
-std::string refusal(const std::string& text, const ReadOptions& options = {})
-{
-    try {
-        raw(text, options);
-    } catch (const Error& error) {
-        return std::string(error.what()) + " | " + error.fix();
-    }
-    return "read";
-}
 // The lines after the first `head` the other way round.
 std::string newest_first(const std::string& text, std::size_t head)
 {
