@@ -11,6 +11,7 @@
 #include "weather/physics/constants.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/named_quantities.h"
 #include "weather/readers/rain_count.h"
 #include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
@@ -19,10 +20,7 @@ namespace petrichor::weather {
 
 namespace {
 
-struct Unit {
-    const char* name;
-    double scale, offset;
-};
+using Unit = QuantityUnit;
 constexpr Unit kTemp[] = {{"c", 1.0, kZeroCelsiusK},
                           {"f", 5.0 / 9.0, kZeroCelsiusK - 32.0 * 5.0 / 9.0}},
                kShare[] = {{"%", 1.0, 0.0}},
@@ -39,14 +37,8 @@ constexpr Unit kTemp[] = {{"c", 1.0, kZeroCelsiusK},
                               {"kpa", 1000.0, 0.0}},
                kAmount[] = {{"mm", 1.0, 0.0}, {"in", 25.4, 0.0}}, kFlux[] = {{"w/m2", 1.0, 0.0}},
                kDegrees[] = {{"", 1.0, 0.0}, {"deg", 1.0, 0.0}};
-struct Quantity {
-    const char* name;
-    Field field;
-    std::span<const Unit> units;
-    bool sea_level = false;
-};
 // Of several names for one field the first that a file has counts; of rain the longest count.
-constexpr Quantity kQuantities[] = {
+constexpr NamedQuantity kQuantities[] = {
     {"outdoor temperature", Field::AirTemp, kTemp},
     {"outdoor humidity", Field::RelHumidity, kShare},
     {"dew point", Field::DewPoint, kTemp},
@@ -76,13 +68,10 @@ constexpr Quantity kQuantities[] = {
 
 // "outdoor temperature(℃)": name and unit. The signs of degrees, which no two programs write the
 // same, become letters.
-struct Parts {
-    std::string name, unit;
-};
-Parts parts_of(const std::string& column)
+NameAndUnit parts_of(const std::string& column)
 {
     const std::size_t open = column.find('('), close = column.rfind(')');
-    Parts parts;
+    NameAndUnit parts;
     parts.name = std::string(trimmed(std::string_view(column).substr(0, open)));
     if (open == column.npos || close == column.npos || close < open) return parts;
     std::string unit = column.substr(open + 1, close - open - 1);
@@ -93,38 +82,6 @@ Parts parts_of(const std::string& column)
     for (const char c : unit)
         if (static_cast<unsigned char>(c) < 0x80 && c != '^' && c != ' ') parts.unit += c;
     return parts;
-}
-
-struct Column {
-    std::size_t at;
-    const Quantity* quantity;
-    double scale, offset;
-};
-
-//   throws  Error for a unit that is not known
-std::vector<Column> columns_of(const TableHeader& header)
-{
-    std::vector<Column> out;
-    for (const Quantity& q : kQuantities) {
-        if (std::any_of(out.begin(), out.end(),
-                        [&](const Column& c) { return c.quantity->field == q.field; }))
-            continue;
-        for (const std::string& column : header.names()) {
-            const auto [name, unit] = parts_of(column);
-            if (name != q.name) continue;
-            const auto known = std::find_if(q.units.begin(), q.units.end(),
-                                            [&](const Unit& u) { return unit == u.name; });
-            // Light in lux is no sunlight in W/m2, and none is needed.
-            if (known == q.units.end() && q.field == Field::Shortwave) continue;
-            if (known == q.units.end())
-                throw Error("weather: Ecowitt: the unit '" + shown(unit) + "' of column '" +
-                                shown(column) + "' is not known",
-                            "Set the console to C, m/s, hPa and mm, and write the file again.");
-            out.push_back({header.at(column), &q, known->scale, known->offset});
-            break;
-        }
-    }
-    return out;
 }
 
 char separator_of(std::string_view line)
@@ -152,11 +109,13 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     if (stamp == TableHeader::kNone)
         throw Error("weather: Ecowitt: there is no column 'Time'",
                     "Take the file as the console wrote it.");
-    const std::vector<Column> columns = columns_of(header);
+    const std::vector<QuantityColumn> columns =
+        quantity_columns(header, kQuantities, parts_of, "Ecowitt",
+                         "Set the console to C, m/s, hPa and mm, and write the file again.");
     rows.unread_columns(header.unread());
     note_unknown_zone(rows, options, "that of the console, with summer time where it keeps it");
     const DateOrder order = date_order_of(lines, separator, stamp, "Ecowitt", options);
-    for (const Column& c : columns) {
+    for (const QuantityColumn& c : columns) {
         if (c.quantity->sea_level)
             rows.note(ReadNote::Kind::Info, 0, "pressure",
                       "given for sea level as the console is set, brought to the station where its "
@@ -172,7 +131,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                         }};
     for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         if (!rows.begin_row(row.time_us, row.line)) return;
-        for (const Column& c : columns) {
+        for (const QuantityColumn& c : columns) {
             std::string cell(trimmed(cell_of(row.cells, c.at)));
             if (separator != ',') std::replace(cell.begin(), cell.end(), ',', '.');
             auto value = number_or_none(cell, {"--", "---", "--.-", "-"});

@@ -13,6 +13,7 @@
 #include "weather/physics/constants.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/named_quantities.h"
 #include "weather/readers/table_rows.h"
 #include "weather/readers/tables.h"
 
@@ -21,10 +22,7 @@ namespace petrichor::weather {
 namespace {
 
 constexpr double kF = 5.0 / 9.0, kFrom_f = kZeroCelsiusK - 32.0 * kF;
-struct Unit {
-    const char* name;
-    double scale, offset;
-};
+using Unit = QuantityUnit;
 constexpr Unit kTemp[] = {{"c", 1.0, kZeroCelsiusK}, {"f", kF, kFrom_f}},
                kShare[] = {{"%", 1.0, 0.0}},
                kSpeed[] = {{"mph", 0.44704, 0.0},
@@ -40,14 +38,8 @@ constexpr Unit kTemp[] = {{"c", 1.0, kZeroCelsiusK}, {"f", kF, kFrom_f}},
                               {"mm hg", 133.322, 0.0}},
                kAmount[] = {{"in", 25.4, 0.0}, {"mm", 1.0, 0.0}}, kFlux[] = {{"w/m^2", 1.0, 0.0}},
                kNone[] = {{"", 1.0, 0.0}};
-struct Quantity {
-    const char* name;
-    Field field;
-    std::span<const Unit> units;
-    bool sea_level = false;
-};
 // Of two names for one field the first here counts.
-constexpr Quantity kQuantities[] = {
+constexpr NamedQuantity kQuantities[] = {
     {"temp", Field::AirTemp, kTemp},
     {"outside temp", Field::AirTemp, kTemp},
     {"avg temp", Field::AirTemp, kTemp},
@@ -66,14 +58,8 @@ constexpr Quantity kQuantities[] = {
     {"avg solar rad", Field::Shortwave, kFlux},
 };
 
-struct Column {
-    std::size_t at;
-    const Quantity* quantity;
-    double scale, offset;
-};
-
 // "temp - f", its degree sign left out: name and unit.
-std::pair<std::string, std::string> parts_of(const std::string& column)
+NameAndUnit parts_of(const std::string& column)
 {
     const std::size_t dash = column.find(" - ");
     std::string name(trimmed(std::string_view(column).substr(0, dash))), unit;
@@ -81,29 +67,6 @@ std::pair<std::string, std::string> parts_of(const std::string& column)
         for (const char c : column.substr(dash + 3))
             if (static_cast<unsigned char>(c) < 0x80) unit += c;
     return {name, std::string(trimmed(unit))};
-}
-
-std::vector<Column> columns_of(const TableHeader& header)
-{
-    std::vector<Column> out;
-    for (const Quantity& q : kQuantities) {
-        if (std::any_of(out.begin(), out.end(),
-                        [&](const Column& c) { return c.quantity->field == q.field; }))
-            continue;
-        for (std::size_t i = 0; i < header.size(); ++i) {
-            const auto [name, unit] = parts_of(header.names()[i]);
-            if (name != q.name) continue;
-            const auto known = std::find_if(q.units.begin(), q.units.end(),
-                                            [&](const Unit& u) { return unit == u.name; });
-            if (known == q.units.end())
-                throw Error("weather: WeatherLink: the unit '" + shown(unit) + "' of column '" +
-                                shown(header.names()[i]) + "' is not known",
-                            "Choose usual units in the account, and export the file again.");
-            out.push_back({header.at(header.names()[i]), &q, known->scale, known->offset});
-            break;
-        }
-    }
-    return out;
 }
 
 bool is_header(std::string_view line)
@@ -128,7 +91,9 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     }
     const TableHeader header(names, ',');
     const std::size_t stamp = header.at("date & time");
-    const std::vector<Column> columns = columns_of(header);
+    const std::vector<QuantityColumn> columns =
+        quantity_columns(header, kQuantities, parts_of, "WeatherLink",
+                         "Choose usual units in the account, and export the file again.");
     rows.unread_columns(header.unread());
     note_unknown_zone(rows, options, "that of the station, with summer time where it keeps it");
     const DateOrder order = date_order_of(lines, ',', stamp, "WeatherLink", options);
@@ -136,7 +101,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
         return time_of_cell(cell_of(cells, stamp), order);
     }};
     const double hours = usual_step_h(lines, how);
-    for (const Column& c : columns) {
+    for (const QuantityColumn& c : columns) {
         if (c.quantity->field == Field::Shortwave) rows.means_of_past(Field::Shortwave);
         if (c.quantity->sea_level)
             rows.note(ReadNote::Kind::Info, 0, "pressure",
@@ -146,7 +111,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     }
     for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         if (!rows.begin_row(row.time_us, row.line)) return;
-        for (const Column& c : columns) {
+        for (const QuantityColumn& c : columns) {
             TableColumn column{{}, c.quantity->field, c.scale, c.offset};
             if (column.field == Field::Precip) column.fell_hours = hours;
             const auto cell = trimmed(cell_of(row.cells, c.at));
