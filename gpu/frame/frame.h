@@ -151,7 +151,7 @@ struct FrameSettings : FrameSwitches {
 /// frames.
 struct PlaceShape {
     shared::PatchGrid grid{};
-    std::vector<glm::uvec4> table;  ///< as scene::Patches::table
+    std::vector<glm::uvec4> table;  ///< as scene::Patches::table; behind it the parts of patches (gpu/place/place_parts.h)
     glm::vec2 basin_corner_m{0.0f};
     float basin_cell_m = 1.0f;
     std::uint32_t basin_width = 0, basin_depth = 0;
