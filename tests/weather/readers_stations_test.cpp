@@ -97,6 +97,112 @@ TEST(Ecowitt, UnitsAreThoseOfTheNamesAndUnknownOnesAreRefused)
     EXPECT_THAT(notes(lux.report), HasSubstr("solar rad(klux)"));
 }
 
+// Tables of ecowitt.net: sensors over what they measure.
+TEST(Ecowitt, TwoLinesOfNamesAreOne)
+{
+    ReadOptions options;
+    options.utc_offset_h = 1.0;
+    const auto [table, report] = sample("ecowitt_net.csv", options);
+    EXPECT_EQ(report.format, "Ecowitt");
+    EXPECT_EQ(report.rows, 6u);
+    EXPECT_EQ(report.bad_rows, 0u);
+    const std::string five_to = "2025-10-31T22:55Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, five_to), 281.25, 1e-9) << "not that of the room";
+    EXPECT_NEAR(at(table, Field::DewPoint, five_to), 280.15, 1e-9);
+    EXPECT_NEAR(at(table, Field::Wind, five_to), 2.0, 1e-9) << "neither the gust";
+    EXPECT_NEAR(at(table, Field::WindFrom, five_to), 251.0, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, five_to), 96240.0, 1e-6);
+    EXPECT_NEAR(total(table, Field::Precip), 0.9, 1e-9);
+    EXPECT_TRUE(std::isnan(at(table, Field::AirTemp, "2025-10-31T23:10Z")));
+    EXPECT_THAT(notes(report), AllOf(HasSubstr("'rainfall yearly'"), HasSubstr("wind wind gust")));
+    const std::string text = corpus("ecowitt_net.csv");
+    EXPECT_NEAR(raw(with(text, "Wind Speed(km/h)", "Wind Speed(mph)")).table[Field::Wind][0],
+                10.8 * 0.44704, 1e-9);
+    EXPECT_THAT(refusal(with(text, "Wind Speed(km/h)", "Wind Speed(bft)")), HasSubstr("unit 'bft'"));
+    // A name over every column, and none of quotes.
+    std::string full = with(text, "\"Outdoor\",\"\",\"\",\"\",\"\"",
+                            "Outdoor,Outdoor,Outdoor,Outdoor,Outdoor");
+    full = with(full, "\"Indoor\",\"\"", "Indoor,Indoor");
+    full.erase(std::remove(full.begin(), full.end(), '"'), full.end());
+    expect_same(raw(full, options), raw(text, options));
+}
+
+TEST(Ecowitt, TheAirOutsideMayHaveANameOfItsOwner)
+{
+    const std::string text = corpus("ecowitt_net.csv");
+    const auto named = raw(with(text, "\"Outdoor\"", "\"Orchard\""));
+    expect_same(named, raw(text));
+    EXPECT_THAT(notes(named.report), HasSubstr("'orchard'"));
+    // Two that could be it: nobody guesses.
+    std::string two = with(text, "\"Outdoor\"", "\"Orchard\"");
+    two = with(two, "\"Indoor\",\"\"", "\"Shed\",\"\"");
+    two = with(two, "\"VPD(kPa)\",\"Temperature(\xE2\x84\x83)\"", "\"VPD(kPa)\",\"Dew Point(\xE2\x84\x83)\"");
+    EXPECT_THAT(refusal(two), AllOf(HasSubstr("no sensor is called 'Outdoor'"), HasSubstr("2 others")));
+}
+
+TEST(WeatherUndergroundJson, MinutesInTheUnitsOfTheirObject)
+{
+    const auto [table, report] = sample("wunderground_history.json");
+    EXPECT_EQ(report.format, "Weather Underground JSON");
+    EXPECT_EQ(report.rows, 5u);
+    EXPECT_EQ(report.bad_rows, 0u);
+    EXPECT_EQ(table.site.name, "IEXAMPL12");
+    EXPECT_EQ(table.site.latitude_deg, 42.43);
+    EXPECT_EQ(table.site.utc_offset_h, 1.0);
+    EXPECT_EQ(table.time_us.front(), us_from_iso("2025-03-05T22:44:58Z"));
+    EXPECT_NEAR(table[Field::AirTemp][0], 277.25, 1e-9);
+    EXPECT_NEAR(table[Field::DewPoint][0], 275.35, 1e-9);
+    EXPECT_NEAR(table[Field::RelHumidity][0], 87.0, 1e-9);
+    EXPECT_NEAR(table[Field::Wind][2], 2.0, 1e-9);
+    EXPECT_TRUE(std::isnan(table[Field::Wind][3]));
+    EXPECT_EQ(table[Field::Shortwave][0], 0.0);
+    // 7.1 to 7.6 before midnight, 0.3 after it.
+    EXPECT_NEAR(total(table, Field::Precip), 0.8, 1e-9);
+    EXPECT_NEAR(table[Field::Precip][0] * 300.0, 0.3, 1e-9);
+    EXPECT_THAT(notes(report), AllOf(HasSubstr("give the elevation"), Not(HasSubstr("--file-zone"))));
+    ReadOptions high;
+    high.site.elevation_m = 1180.0;
+    EXPECT_NEAR(sample("wunderground_history.json", high).table[Field::Pressure][0], 88200.0, 600.0);
+
+    const std::string text = corpus("wunderground_history.json");
+    const auto in = [&](const char* units) { return raw(with(text, "\"metric\"", units)).table; };
+    EXPECT_NEAR(in("\"metric_si\"")[Field::Wind][2], 7.2, 1e-9);
+    EXPECT_NEAR(in("\"uk_hybrid\"")[Field::Wind][2], 7.2 * 0.44704, 1e-9);
+    EXPECT_NEAR(in("\"uk_hybrid\"")[Field::AirTemp][0], 277.25, 1e-9);
+    EXPECT_THAT(refusal(with(text, "\"metric\"", "\"mixed\"")), Not(HasSubstr("Weather Underground")));
+}
+
+TEST(WeatherUndergroundJson, HoursAndWhatIsRefused)
+{
+    const auto [table, report] = sample("wunderground_hours.json");
+    ASSERT_EQ(report.rows, 3u);
+    EXPECT_NEAR(table[Field::AirTemp][0], 295.15, 1e-9);
+    EXPECT_NEAR(table[Field::Wind][0], 4.5 * 0.44704, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 2.54, 1e-9);
+    EXPECT_EQ(table.site.utc_offset_h, -7.0);
+    // The highest sun of an hour is not its mean.
+    EXPECT_FALSE(table.has(Field::Shortwave));
+    EXPECT_THAT(notes(report), HasSubstr("solarRadiationHigh: is the highest of rows of 60 min"));
+    const std::string text = corpus("wunderground_hours.json");
+    EXPECT_THAT(refusal(with(text, "observations", "summaries")), HasSubstr("holds days"));
+    std::string two = text;
+    two.replace(two.rfind("KCAEXAMP7"), 9, "KCAEXAMP8");
+    EXPECT_THAT(refusal(two), AllOf(HasSubstr("several stations"), HasSubstr("stationID")));
+    ReadOptions options;
+    options.station = "KCAEXAMP7";
+    EXPECT_EQ(raw(two, options).report.rows, 2u);
+    EXPECT_THAT(refusal(R"({"observations":[],"stationID":"x","metric":{}})"),
+                HasSubstr("no observations"));
+    // What stands now, as many programs gather it.
+    const auto now = raw(
+        R"([{"stationID":"I1","obsTimeUtc":"2022-06-09T13:32:48Z","solarRadiation":132.1,"lon":17.2,)"
+        R"("lat":68.9,"winddir":302,"humidity":77,"metric":{"temp":6.7,"dewpt":3,"windSpeed":11.2,)"
+        R"("pressure":1010.3,"precipTotal":0,"elev":14.6}}])");
+    EXPECT_NEAR(now.table[Field::Shortwave][0], 132.1, 1e-9);
+    EXPECT_EQ(now.table.site.elevation_m, 14.6);
+    EXPECT_NEAR(now.table[Field::Pressure][0], 100850.0, 60.0);
+}
+
 TEST(WeatherUnderground, ADayOfAStation)
 {
     ReadOptions options;

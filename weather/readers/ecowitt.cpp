@@ -1,6 +1,7 @@
 // Weather stations of Ecowitt and Fine Offset (Froggit, Ambient, Sainlogic and others sell them):
 // what their consoles and gateways write to a card, and EasyWeather. Names with units in brackets;
-// the clock of the console; rain as counts since the hour, day, week, month and year began.
+// the clock of the console; rain as counts since the hour, day, week, month and year began. Tables of
+// ecowitt.net have two lines of names, sensors (which their owner names) over what they measure.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -55,6 +56,18 @@ constexpr NamedQuantity kQuantities[] = {
     {"relative pressure", Field::Pressure, kPressure, true},
     {"solar rad", Field::Shortwave, kFlux},
     {"solar and uvi solar", Field::Shortwave, kFlux},
+    {"wind wind speed", Field::Wind, kSpeed},
+    {"wind wind direction", Field::WindFrom, kDegrees},
+    {"pressure absolute", Field::Pressure, kPressure},
+    {"pressure relative", Field::Pressure, kPressure, true},
+    {"rainfall yearly", Field::Precip, kAmount},
+    {"piezo rainfall yearly", Field::Precip, kAmount},
+    {"rainfall monthly", Field::Precip, kAmount},
+    {"piezo rainfall monthly", Field::Precip, kAmount},
+    {"rainfall weekly", Field::Precip, kAmount},
+    {"piezo rainfall weekly", Field::Precip, kAmount},
+    {"rainfall daily", Field::Precip, kAmount},
+    {"piezo rainfall daily", Field::Precip, kAmount},
     {"yearly rain", Field::Precip, kAmount},
     {"yearly", Field::Precip, kAmount},
     {"total rainfall", Field::Precip, kAmount},
@@ -99,11 +112,66 @@ bool is_header(std::string_view line)
     return low.find("outdoor temperature(") != low.npos && low.find("time") != low.npos;
 }
 
+// A line of sensors, a name over the first column of each or over all, over one of what they measure.
+bool are_two_headers(std::string_view sensors, std::string_view names)
+{
+    const std::string above = lower(sensors), below = lower(names);
+    return above.find("time") != above.npos && above.find('(') == above.npos &&
+           below.find("temperature(") != below.npos && below.find("humidity(") != below.npos;
+}
+
+std::vector<std::string> cells_of(std::string_view line, char separator)
+{
+    return TableHeader(line, separator).names();
+}
+
+// Of two lines one: "outdoor temperature(c)". The sensor of the air outside is called Outdoor where
+// nobody has given it another name; else it is the one besides Indoor that has a dew point.
+std::string one_header(std::string_view sensors, std::string_view names, char separator,
+                       RowCollector& rows)
+{
+    const std::vector<std::string> above = cells_of(sensors, separator),
+                                   below = cells_of(names, separator);
+    std::vector<std::pair<std::string, std::string>> columns;
+    std::vector<std::string> dewy;
+    std::string sensor;
+    for (std::size_t i = 0; i < std::max(above.size(), below.size()); ++i) {
+        if (i < above.size() && !above[i].empty()) sensor = above[i];
+        const std::string name = i < below.size() ? below[i] : std::string();
+        columns.emplace_back(sensor, name);
+        if (name.rfind("dew point(", 0) == 0 && sensor != "indoor" &&
+            std::find(dewy.begin(), dewy.end(), sensor) == dewy.end())
+            dewy.push_back(sensor);
+    }
+    std::string outdoor = "outdoor";
+    const bool named = std::any_of(columns.begin(), columns.end(),
+                                   [](const auto& c) { return c.first == "outdoor"; });
+    if (!named) {
+        if (dewy.size() != 1)
+            throw Error("weather: Ecowitt: no sensor is called 'Outdoor', and " +
+                            std::to_string(dewy.size()) + " others have a dew point",
+                        "Write Outdoor over the columns of the sensor of the air outside.");
+        outdoor = dewy.front();
+        rows.note(ReadNote::Kind::Info, 0, "outdoor", "the air outside is that of '" + shown(outdoor) + "'");
+    }
+    std::string line;
+    for (const auto& [of, name] : columns) {
+        if (!line.empty()) line += separator;
+        if (name.empty() || name == "time" || of == "time")
+            line += of.empty() || name == "time" ? name : of;
+        else
+            line += (of == outdoor ? "outdoor" : of) + " " + name;
+    }
+    return line;
+}
+
 void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
     Lines lines(text);
-    const std::string_view names = lines.next().value_or("");
-    const char separator = separator_of(names);
+    const std::string_view first = lines.next().value_or("");
+    const char separator = separator_of(first);
+    std::string names(first);
+    if (!is_header(first)) names = one_header(first, lines.next().value_or(""), separator, rows);
     const TableHeader header(names, separator);
     const std::size_t stamp = header.at("time");
     if (stamp == TableHeader::kNone)
@@ -153,13 +221,14 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
 
 bool recognise(const FileHead& head)
 {
-    return is_header(head.first);
+    return is_header(head.first) ||
+           (head.lines.size() > 1 && are_two_headers(head.first, head.lines[1]));
 }
 
 }  // namespace
 
 extern const Reader ecowitt_reader;
 const Reader ecowitt_reader{
-    "Ecowitt", "stations of Ecowitt and Fine Offset, as their consoles write", recognise, read};
+    "Ecowitt", "stations of Ecowitt and Fine Offset, as their consoles and ecowitt.net write", recognise, read};
 
 }  // namespace petrichor::weather

@@ -9,7 +9,8 @@ namespace petrichor::weather {
 // The one list. Its order matters: see weather_readers().
 #define PETRICHOR_WEATHER_READERS(add)                                                          \
     add(metro) add(pvgis_json) add(visual_crossing_json) add(openweather_json)                  \
-        add(nasa_power_json) add(open_meteo_json) add(smet) add(nsrdb) add(epw) add(pvgis)      \
+        add(nasa_power_json) add(wunderground_json) add(open_meteo_json) add(smet) add(nsrdb)   \
+            add(epw) add(pvgis)                                                                 \
             add(midc) add(tmy3) add(tmy2) add(wea) add(open_meteo_csv) add(visual_crossing)     \
                 add(openweather) add(nasa_power) add(fluxnet) add(meteo_france)                 \
                     add(meteo_france_synop) add(meteoswiss) add(weatherlink)                    \

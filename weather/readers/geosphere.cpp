@@ -52,16 +52,12 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     rows.note(
         ReadNote::Kind::Info, 0, "place",
         "the place of the station is not in the file: give latitude, longitude and elevation");
-    std::string chosen = options.station;
-    bool others = false, any = false;
+    OneStation stations(options.station);
     const DatedRows how{
         .time_of = [&](const Cells& cells) { return time_of_cell(cell_of(cells, stamp)); },
         .skip =
             [&](const Cells& cells) {
-                const auto who = trimmed(cell_of(cells, station));
-                if (chosen.empty()) chosen = std::string(who);
-                (who == chosen ? any : others) = true;
-                return who != chosen;
+                return stations.is_other(trimmed(cell_of(cells, station)));
             }};
     const double hours = usual_step_h(lines, how);
     if (hours > 12.0)
@@ -83,11 +79,8 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
             put_cell(column, cell, value, rows);
         }
     });
-    rows.site().name = shown(chosen);
-    if (others && (options.station.empty() || !any))
-        throw Error("weather: GeoSphere: several stations in the file" +
-                        (any ? std::string() : ", and not '" + shown(chosen) + "'"),
-                    "Say which one with --station, by its number.");
+    rows.site().name = shown(stations.name());
+    stations.check("GeoSphere", "by its number");
 }
 
 bool recognise(const FileHead& head)

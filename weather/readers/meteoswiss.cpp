@@ -88,8 +88,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
         else if (sun)
             rows.means_of_past(c.quantity->field);
     }
-    std::string chosen = options.station;
-    bool others = false, any = false;
+    OneStation stations(options.station);
     const DatedRows how{
         .separator = ';',
         // 31.12.2024 23:50, or 202412312350
@@ -99,10 +98,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
             },
         .skip =
             [&](const Cells& cells) {
-                const auto who = trimmed(cell_of(cells, station));
-                if (chosen.empty()) chosen = std::string(who);
-                (who == chosen ? any : others) = true;
-                return who != chosen;
+                return stations.is_other(trimmed(cell_of(cells, station)));
             }};
     for_dated_rows(lines, how, rows, [&](const DatedRow& row) {
         if (!rows.begin_row(row.time_us, row.line)) return;
@@ -114,11 +110,8 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
             put_cell(column, cell, number_or_none(cell, {"-"}), rows);
         }
     });
-    rows.site().name = shown(chosen);
-    if (others && (options.station.empty() || !any))
-        throw Error("weather: MeteoSwiss: several stations in the file" +
-                        (any ? std::string() : ", and not '" + shown(chosen) + "'"),
-                    "Say which one with --station, by its three letters.");
+    rows.site().name = shown(stations.name());
+    stations.check("MeteoSwiss", "by its three letters");
 }
 
 bool recognise(const FileHead& head)

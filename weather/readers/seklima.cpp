@@ -71,8 +71,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     rows.note(
         ReadNote::Kind::Info, 0, "place",
         "the place of the station is not in the file: give latitude, longitude and elevation");
-    std::string chosen = options.station;
-    bool others = false, any = false;
+    OneStation stations(options.station);
     const DatedRows how{.separator = ';',
                         .time_of = [&](const Cells& cells) -> std::optional<std::int64_t> {
                             const auto us =
@@ -85,10 +84,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                                 // The last line names the licence.
                                 if (cells.size() <= stamp) return true;
                                 const auto who = trimmed(cell_of(cells, station));
-                                if (who.empty()) return true;
-                                if (chosen.empty()) chosen = std::string(who);
-                                (who == chosen ? any : others) = true;
-                                return who != chosen;
+                                return who.empty() || stations.is_other(who);
                             }};
     if (usual_step_h(lines, how) > 12.0)
         throw Error("weather: seklima: this file holds days", "Order hourly values.");
@@ -105,10 +101,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
             put_cell(*column, cell, value, rows);
         }
     });
-    if (others && (options.station.empty() || !any))
-        throw Error("weather: seklima: several stations in the file" +
-                        (any ? std::string() : ", and not '" + shown(chosen) + "'"),
-                    "Say which one with --station, as SN18700.");
+    stations.check("seklima", "as SN18700");
 }
 
 bool recognise(const FileHead& head)

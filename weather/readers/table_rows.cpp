@@ -150,6 +150,14 @@ DateOrder date_order_of(Lines lines, char separator, std::size_t stamp, const ch
                 "Say --date-order dmy or mdy (in a scenario [weather] date_order).");
 }
 
+void OneStation::check(const char* format, const char* how) const
+{
+    if (!others_ || (asked_ && found_)) return;
+    throw Error("weather: " + std::string(format) + ": several stations in the file" +
+                    (found_ ? std::string() : ", and not '" + shown(name_) + "'"),
+                "Say which one with --station, " + std::string(how) + ".");
+}
+
 double OddCells::number_of(std::string_view cell, std::size_t line, const char* name)
 {
     const double value = to_number(cell).value_or(kMissing);

@@ -74,6 +74,29 @@ std::optional<double> compass_deg(std::string_view text);
 DateOrder date_order_of(Lines lines, char separator, std::size_t stamp, const char* format,
                         const ReadOptions& options);
 
+/// One station of a table that may hold several: the one that was asked for, else the first.
+class OneStation {
+public:
+    ///   station  asked for; empty: nobody asked
+    explicit OneStation(const std::string& station) : name_(station), asked_(!station.empty()) {}
+    /// Whether a row is of another station.
+    bool is_other(std::string_view who)
+    {
+        if (name_.empty()) name_ = std::string(who);
+        (who == name_ ? found_ : others_) = true;
+        return who != name_;
+    }
+    const std::string& name() const { return name_; }
+    /// Once all rows were seen.
+    ///   how     "by its number", how stations are named
+    ///   throws  Error where several are there and none of them was asked for
+    void check(const char* format, const char* how) const;
+
+private:
+    std::string name_;
+    bool asked_, found_ = false, others_ = false;
+};
+
 /// Cells that are no numbers, the first few of which are told.
 class OddCells {
 public:
