@@ -202,6 +202,37 @@ TEST(Road, TheFirstProfileHasTheWaveOfTheDay)
     EXPECT_EQ(start(FirstProfile::DayAndLine).ground_temp_c[3], line.ground_temp_c[3]);
 }
 
+// What METRo begins with (its subroutine MAKITP): surface and thermometer as measured, between them a
+// line and a wave of 7.5 K with its crest at six; then both are held as measured.
+TEST(Road, MetrosFirstProfileMeetsBothThermometers)
+{
+    PhysicalParams p;
+    p.surface = surface_preset("road");
+    p.surface.layers = {{1.0, 0.8, 2.1e6}};
+    ForcingTable t = steady(290.15, 0, 300, 0, 24);
+    t.site.latitude_deg = 45.0;
+    t.site.longitude_deg = 0.0;
+    const std::int64_t six = *us_from_iso("2006-07-12T06:00Z");
+    const std::vector<double> surface{20.0, 20.0}, below{20.0, 26.0};
+    const auto start = [&](std::int64_t us, std::size_t values) {
+        const std::vector<std::int64_t> times{us, us + kHourUs};
+        return observed_start(t, p,
+                              {std::span(times).first(values), std::span(surface).first(values),
+                               std::span(below).first(values), 0.47},
+                              FirstProfile::Metro);
+    };
+    const CellState crest = start(six, 1), trough = start(six + 12 * kHourUs, 1);
+    EXPECT_NEAR(crest.ground_temp_c[5], 20.0, 1e-9) << "0.47 m, the thermometer";
+    const double turn_1_s = 2.0 * 3.14159265358979 / 86400.0, depth_m = 0.05,
+                 damping_m = std::sqrt(0.8 / 2.1e6 / turn_1_s);
+    const auto wave = [&](double z) { return 7.5 * std::exp(-z / damping_m) * std::cos(z / damping_m); };
+    const double expected = wave(depth_m) - wave(0.47) - (wave(0.0) - wave(0.47)) * (1.0 - depth_m / 0.47);
+    EXPECT_NEAR(crest.ground_temp_c[2], 20.0 + expected, 0.01) << "0.05 m";
+    EXPECT_NEAR(trough.ground_temp_c[2], 20.0 - expected, 0.01);
+    EXPECT_LT(expected, -3.0) << "colder below a crest";
+    EXPECT_NEAR(start(six, 2).ground_temp_c[5], 26.0, 1e-9) << "held";
+}
+
 TEST(Friction, FallsWithWhatLiesThere)
 {
     CellState c{};
@@ -378,6 +409,14 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     EXPECT_EQ(t[Field::AirTemp][0], 268.15);
     EXPECT_EQ(t[Field::AirTemp][5], 270.15);
     EXPECT_TRUE(std::isnan(t[Field::DewPoint][4]));
+    EXPECT_FALSE(t.has(Field::Pressure));
+    // No station measures pressure: the forecast's, on a mountain too.
+    ForcingTable high = forecast;
+    high[Field::Pressure] = {82400.0, 82600.0, 82600.0, 82600.0};
+    const ForcingTable thin = observed_weather(o, high);
+    EXPECT_EQ(thin[Field::Pressure][0], 82400.0);
+    EXPECT_EQ(thin[Field::Pressure][2], 82400.0);
+    EXPECT_EQ(thin[Field::Pressure][5], 82600.0);
     // Nothing forecast: what the air tells; without its humidity half a cover.
     ForcingTable silent = forecast;
     silent[Field::Cloud].clear();

@@ -140,7 +140,8 @@ private:
     std::size_t count_ = 0;
 };
 
-// Thermal properties that METRo gives its materials, W/m/K and J/m3/K (Crevier & Delage 2001).
+// Thermal properties that METRo gives its materials, W/m/K and J/m3/K (Crevier & Delage 2001); sand is
+// dry here (METRo: 1.0 and 2.0e6).
 struct Material {
     const char* name;
     double conductivity, capacity;
@@ -338,10 +339,14 @@ ForcingTable observed_weather(const MetroObservation& observed, const ForcingTab
             rain_of(observed, i,
                     forecasts ? forecast[Field::Rain][static_cast<std::size_t>(row)] : 0.0));
         t[Field::Snow].push_back(0.0);
+        if (forecast.has(Field::Pressure))
+            t[Field::Pressure].push_back(value_at(forecast, Field::Pressure, now_us));
     }
     for (std::size_t i = 0; i < forecast.rows(); ++i) {
         if (!t.time_us.empty() && forecast.time_us[i] <= t.time_us.back()) continue;
         t.time_us.push_back(forecast.time_us[i]);
+        if (forecast.has(Field::Pressure))
+            t[Field::Pressure].push_back(forecast[Field::Pressure][i]);
         for (const Field f : {Field::AirTemp, Field::DewPoint, Field::Wind})
             t[f].push_back(forecast.has(f) ? forecast[f][i] : kMissing);
         t[Field::Cloud].push_back(forecast_cover(forecast, i));

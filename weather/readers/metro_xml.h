@@ -34,7 +34,8 @@ struct MetroObservation {
 };
 MetroObservation read_metro_observation(std::string_view text);
 
-/// The weather over the hours that were measured, not filled: air, dew point and wind as measured.
+/// The weather over the hours that were measured, not filled: air, dew point and wind as measured,
+/// pressure that of `forecast` (stations measure none, and METRo's files know no height).
 ///
 /// Clouds are those of `forecast`, full where rain or snow falls in it out of none at all. Before it
 /// those of its beginning, the mean of kFirstCloud_h hours, the less certain the longer before: they
@@ -64,7 +65,7 @@ struct MetroRoadcast {
 MetroRoadcast read_metro_roadcast(std::string_view text);
 
 /// A layer of a material that METRo knows (asphalt, cement, concrete, crushed rock, gravel, sand;
-/// blanks and hyphens do not matter) with METRo's values, or nothing for another word.
+/// blanks and hyphens do not matter) with METRo's values (sand: dry), or nothing for another word.
 std::optional<GroundLayer> road_layer(std::string_view material, double thickness_m);
 
 /// True for a text that begins like one of these files.

@@ -41,6 +41,8 @@ ForcingTable table_of(const RoadCase& road, std::int64_t begin_us, double emissi
         t[Field::AirTemp].push_back(r.air_c[i] + weather::kZeroCelsiusK);
         t[Field::DewPoint].push_back(r.dew_point_c[i] + weather::kZeroCelsiusK);
         t[Field::Wind].push_back(r.wind_m_s[i]);
+        if (road.forecast.has(Field::Pressure))
+            t[Field::Pressure].push_back(weather::value_at(road.forecast, Field::Pressure, us));
         const std::size_t next = std::min(i + 1, r.air_c.size() - 1);
         t[Field::NetShortwave].push_back(0.5 * (r.shortwave_w_m2[i] + r.shortwave_w_m2[next]));
         t[Field::Longwave].push_back(r.longwave_w_m2[i] / emissivity);
@@ -72,9 +74,9 @@ std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalPar
     const std::int64_t begin_us =
         std::min(road.observed.table.time_us[last], road.roadcast.time_us.front());
     const ForcingTable table = table_of(road, begin_us, p.surface.emissivity);
-    // METRo begins with a line below its road.
+    // As METRo begins.
     const weather::CellState start = weather::observed_start(
-        table, p, temperatures(road, last + 1), weather::FirstProfile::Line);
+        table, p, temperatures(road, last + 1), weather::FirstProfile::Metro);
     const auto run_with = [&](double traffic_wind_m_s) {
         weather::PhysicalParams stirred = p;
         stirred.surface.traffic_wind_m_s = traffic_wind_m_s;

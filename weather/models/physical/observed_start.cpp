@@ -41,7 +41,8 @@ public:
     {
         wave_ = wave;
         second_ = second_of_sun;
-        left_k_ -= wave.at(0.0, second_of_sun);
+        below_c_ -= wave.at(sensor_m_, second_of_sun);
+        left_k_ += wave.at(sensor_m_, second_of_sun) - wave.at(0.0, second_of_sun);
     }
     double at(double depth_m) const
     {
@@ -53,6 +54,56 @@ private:
     double below_c_, left_k_, sensor_m_, second_ = 0.0;
     DayWave wave_;
 };
+
+// Heat that brings the model to the thermometer in the ground, between the two layers about it, the
+// nearer the more.
+class Thermometer {
+public:
+    explicit Thermometer(double depth_m)
+    {
+        double top_m = 0.0, above_m = 0.0;
+        for (std::size_t i = 0; i < kGroundLayers; ++i) {
+            const double middle_m = top_m + 0.5 * kGroundThickness_m[i];
+            if (middle_m >= depth_m || i + 1 == kGroundLayers) {
+                below_ = i;
+                share_below_ = i == 0 ? 1.0
+                                      : std::clamp((depth_m - above_m) / (middle_m - above_m), 0.0,
+                                                   1.0);
+                break;
+            }
+            top_m += kGroundThickness_m[i];
+            above_m = middle_m;
+        }
+    }
+    void bring(std::array<double, kGroundLayers>& temps_c, double measured_c) const
+    {
+        const std::size_t above = below_ == 0 ? 0 : below_ - 1;
+        const double up = 1.0 - share_below_, down = share_below_;
+        const double missed_k = measured_c - (up * temps_c[above] + down * temps_c[below_]);
+        const double squares = up * up + down * down;
+        temps_c[above] += missed_k * up / squares;
+        temps_c[below_] += missed_k * down / squares;
+    }
+
+private:
+    std::size_t below_ = 0;
+    double share_below_ = 1.0;
+};
+
+// METRo's first profile (its subroutine MAKITP).
+DayWave metro_wave(const Surface& surface, double sensor_m)
+{
+    double diffusivity = 0.0, top_m = 0.0;
+    for (const GroundLayer& layer : surface.layers) {
+        const double part_m = std::min(layer.thickness_m, sensor_m - top_m);
+        diffusivity += part_m / sensor_m * layer.conductivity_w_m_k / layer.heat_capacity_j_m3_k;
+        top_m += part_m;
+        if (top_m >= sensor_m) break;
+    }
+    diffusivity += (sensor_m - top_m) / sensor_m * surface.conductivity_w_m_k /
+                   surface.heat_capacity_j_m3_k;
+    return {7.5, std::sqrt(diffusivity / kTurn_1_s), 0.25 * kDay_s};
+}
 
 }  // namespace
 
@@ -109,7 +160,7 @@ CellState observed_start(const ForcingTable& table, const PhysicalParams& params
     std::array<double, kGroundLayers> temps_c{};
     Profile profile(*surface, below_c, measured.subsurface_depth_m);
     const Site& site = table.site;
-    if (first == FirstProfile::DayAndLine && !std::isnan(site.longitude_deg) &&
+    if (first != FirstProfile::Line && !std::isnan(site.longitude_deg) &&
         !std::isnan(site.latitude_deg)) {
         const auto at = std::find_if(measured.surface_c.begin(), measured.surface_c.end(), usable) -
                         measured.surface_c.begin();
@@ -118,7 +169,9 @@ CellState observed_start(const ForcingTable& table, const PhysicalParams& params
             us + static_cast<std::int64_t>(site.longitude_deg / 360.0 * kDay_s * 1e6);
         const double cloud =
             table.has(Field::Cloud) && table.rows() > 0 ? value_at(table, Field::Cloud, us) : 0.5;
-        profile.add_wave(day_wave(params.surface, site.latitude_deg, by_sun_us, cloud),
+        profile.add_wave(first == FirstProfile::Metro
+                             ? metro_wave(params.surface, measured.subsurface_depth_m)
+                             : day_wave(params.surface, site.latitude_deg, by_sun_us, cloud),
                          static_cast<double>(by_sun_us % 86400000000LL) * 1e-6);
     }
     double depth_m = 0.0;
@@ -126,11 +179,17 @@ CellState observed_start(const ForcingTable& table, const PhysicalParams& params
         temps_c[i] = profile.at(depth_m + 0.5 * kGroundThickness_m[i]);
         depth_m += kGroundThickness_m[i];
     }
-    double last_c = *surface;
+    const Thermometer thermometer(measured.subsurface_depth_m);
+    const auto below_at = [&](std::size_t i) {
+        return i < measured.subsurface_c.size() ? measured.subsurface_c[i] : kMissing;
+    };
+    double last_c = *surface, last_below_c = kMissing;
     std::optional<std::int64_t> before_us;
     for (std::size_t i = 0; i < measured.time_us.size(); ++i) {
         if (!usable(measured.surface_c[i])) continue;
-        const double now_c = measured.surface_c[i];
+        const double now_c = measured.surface_c[i], now_below_c = below_at(i);
+        const bool below_known =
+            first == FirstProfile::Metro && usable(now_below_c) && usable(last_below_c);
         if (before_us) {
             const double span_s = static_cast<double>(measured.time_us[i] - *before_us) * 1e-6;
             const int parts = std::max(1, static_cast<int>(std::ceil(span_s / kLongest_s)));
@@ -141,10 +200,14 @@ CellState observed_start(const ForcingTable& table, const PhysicalParams& params
                 temps_c =
                     step_ground(s.whole.ground, temps_c, last_c + (now_c - last_c) * x, deep_c)
                         .temp_k;
+                if (below_known)
+                    thermometer.bring(temps_c, last_below_c + (now_below_c - last_below_c) *
+                                                                  (part + 1) / parts);
             }
         }
         before_us = measured.time_us[i];
         last_c = now_c;
+        last_below_c = now_below_c;
     }
     cell.surface_temp_c = last_c;
     std::copy(temps_c.begin(), temps_c.end(), std::begin(cell.ground_temp_c));

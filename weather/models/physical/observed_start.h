@@ -19,7 +19,11 @@ struct RoadTemperatures {
 /// What lies between the surface and the sub-surface thermometer at the first measurement, which
 /// nobody measured.
 enum class FirstProfile : std::uint8_t {
-    Line,        ///< METRo's
+    Line,        ///< a line
+    /// METRo's: 7.5 K of a daily wave whose crest is at six by the sun, and a line for what is left;
+    /// while the surface is measured, the depth of the thermometer below is held at what that
+    /// measured. No sun makes that wave; for what is held against METRo.
+    Metro,
     DayAndLine,  ///< the wave that a day of that sun sends down, and a line for what is left
 };
 
