@@ -1,9 +1,7 @@
 // The tree in which points of surfaces find the patch whose weather they have: its words, and how far a pixel strays. Rows told
 // once for C++ and GLSL; the lookup is place_lookup.inc, the tree is made by gpu/place/place_tree.h.
 //
-// It is one table of words. First, for each patch, kPlaceWords: the number of its material, then of what lies beside it on four
-// sides (along the next axis of its plane, the one behind that, and back) the patch, and its material in the upper 16 bits. Then
-// the roots, a box of cells for each of the six axes, x fastest. Words of roots and of what they are cut into are a leaf,
+// The tree is one table of words: first the roots, a box of cells for each of the six axes, x fastest. Words of roots and of what they are cut into are a leaf,
 // kNoPlace, or kPlaceCut and where the words begin of the cells that this one is cut into: 4 x 4 x 4 two levels finer,
 // or 2 x 2 x 2 of the finest. So most points are found in two or three reads, all by the same steps.
 //
@@ -19,7 +17,8 @@
 
 SHARED_BEGIN
 
-SHARED_CONST uint kPlaceWords = 5u;
+SHARED_CONST uint kPlaceTexels = 4u;
+SHARED_CONST uint kPlaceAsk = 0xffffffffu;
 SHARED_CONST uint kPlaceCut = 0x80000000u;
 SHARED_CONST uint kNoPlace = 0x7fffffffu;
 SHARED_CONST int kMostRootsAcross = 511;
@@ -67,7 +66,8 @@ struct PlaceOwn {
 
 struct PlaceLeaves {
     uint own;
-    uint other;  // at the point moved by the turn
+    uint own_material;
+    uint other;  // the patch at the point moved by the turn, its material in the upper 16 bits
     vec2 way;    // of the turn in its plane, along the next axis and the one behind that
 };
 

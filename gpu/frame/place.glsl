@@ -1,7 +1,7 @@
 // The patch at a surface point, and the hollow that lies below it. The includer has `frame` and
 //
 //   usamplerBuffer place_table     words of a tree (formulas/light/place_cells.h)
-//   samplerBuffer place_states     PLACE_STATE_TEXELS a patch
+//   usamplerBuffer place_states    kPlaceTexels a patch (place_cells.h), behind all of them PLACE_STATE_TEXELS a patch, floats
 //   usamplerBuffer place_labels    of the cells of the ground: the pit they drain to, 0 none
 //   samplerBuffer place_levels     world y of the water over a pit
 #ifndef PETRICHOR_PLACE_GLSL
@@ -15,6 +15,11 @@ uint place_word(uint index)
     return texelFetch(place_table, int(index)).r;
 }
 
+uvec4 place_texel(uint index)
+{
+    return texelFetch(place_states, int(index));
+}
+
 #include "formulas/light/place_lookup.inc"
 
 // The patch at a point of a surface, kNoPatch where none is near.
@@ -26,7 +31,8 @@ uint place_patch(vec3 x, vec3 n)
 
 vec4 place_state(uint patch_number, int texel)
 {
-    return texelFetch(place_states, int(patch_number) * PLACE_STATE_TEXELS + texel);
+    const uint first = frame.place.grid.patches * kPlaceTexels;
+    return uintBitsToFloat(texelFetch(place_states, int(first + patch_number * PLACE_STATE_TEXELS) + texel));
 }
 
 // Whether a point without a patch is open ground whose state is known (PlaceConstants::open_patch).

@@ -5,7 +5,7 @@
 #include "base/interop.h"
 #include "formulas/light/patch_cells.h"
 
-// Texels (RGBA32F) a patch in the table of states: what pixels show (place.glsl), then SI:
+// Texels (RGBA32UI: bits of floats) a patch in the table of states: what pixels show (place.glsl), then SI:
 //   0  film 0..1, level in cracks, level in puddles, snow amount
 //   1  frost, frozen share, share of the rain that meets it, 0 or 2 + level of the water in the relief
 //   2  film mm, mean depth of the water in the relief m, snow m, ice kg/m2

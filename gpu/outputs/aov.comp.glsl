@@ -19,7 +19,7 @@ layout(binding = AOV_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(constant_id = AOV_SPEC_PLACE) const uint PLACE = 0u;
 layout(constant_id = AOV_SPEC_MATERIALS) const uint MATERIALS = 0u;
 layout(binding = AOV_PLACE_TABLE) uniform usamplerBuffer place_table;
-layout(binding = AOV_PLACE_STATES) uniform samplerBuffer place_states;
+layout(binding = AOV_PLACE_STATES) uniform usamplerBuffer place_states;
 layout(binding = AOV_PLACE_LABELS) uniform usamplerBuffer place_labels;
 layout(binding = AOV_PLACE_LEVELS) uniform samplerBuffer place_levels;
 #include "gpu/frame/place.glsl"

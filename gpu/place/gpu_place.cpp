@@ -21,12 +21,19 @@ std::unique_ptr<GpuBuffer> texel_buffer(MemoryArena& arena, const char* name, st
                          .host = true});
 }
 
+// Behind `first` bytes; what is left of the buffer is 0.
 template <class T>
-void fill(GpuBuffer& buffer, const std::vector<T>& values)
+void fill(GpuBuffer& buffer, const std::vector<T>& values, std::size_t first = 0)
 {
-    std::memset(buffer.mapped, 0, buffer.size);
-    const std::size_t bytes = std::min<std::size_t>(buffer.size, values.size() * sizeof(T));
-    if (bytes > 0) std::memcpy(buffer.mapped, values.data(), bytes);
+    std::memset(buffer.mapped + first, 0, buffer.size - first);
+    const std::size_t bytes = std::min<std::size_t>(buffer.size - first, values.size() * sizeof(T));
+    if (bytes > 0) std::memcpy(buffer.mapped + first, values.data(), bytes);
+}
+
+// Where the states begin, behind the texels by which patches are found.
+std::size_t before_states(const shared::PlaceConstants& constants)
+{
+    return std::size_t{constants.grid.patches} * shared::kPlaceTexels * sizeof(glm::vec4);
 }
 
 void check(const PlaceWeather& place)
@@ -90,12 +97,13 @@ void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t l
     table_ = texel_buffer(*arena_, "place_table", tree.words.size() * 4, VK_FORMAT_R32_UINT);
     states_ = texel_buffer(
         *arena_, "place_states",
-        ((places + 1) * PLACE_STATE_TEXELS + SKY_DIRECTIONS * PLACE_FALL_TEXELS) * sizeof(glm::vec4),
-        VK_FORMAT_R32G32B32A32_SFLOAT);
+        (tree.texels.size() + (places + 1) * PLACE_STATE_TEXELS + SKY_DIRECTIONS * PLACE_FALL_TEXELS) * sizeof(glm::vec4),
+        VK_FORMAT_R32G32B32A32_UINT);
     labels_ = texel_buffer(*arena_, "place_labels", at_least(shape.labels.size()) * 4,
                            VK_FORMAT_R32_UINT);
     levels_ = texel_buffer(*arena_, "place_levels", at_least(levels) * 4, VK_FORMAT_R32_SFLOAT);
     fill(*table_, tree.words);
+    fill(*states_, tree.texels);
     fill(*labels_, shape.labels);
     constants_ = {tree.grid, shape.basin_corner_m, shape.basin_cell_m, shape.basin_width,
                   shape.basin_depth, shared::kNoPatch, 0.0f};
@@ -116,11 +124,12 @@ void GpuPlace::update(const Device& device, const PlaceWeather* place)
         shape_ = place->shape;
         materials_ = std::move(materials);
     }
-    fill(*states_, place->states);
+    const std::size_t first = before_states(constants_);
+    fill(*states_, place->states, first);
     // Behind those of the patches.
     if (!place->open.empty())
-        std::memcpy(static_cast<std::byte*>(states_->mapped) + place->states.size() * sizeof(glm::vec4),
-                    place->open.data(), place->open.size() * sizeof(glm::vec4));
+        std::memcpy(states_->mapped + first + place->states.size() * sizeof(glm::vec4), place->open.data(),
+                    place->open.size() * sizeof(glm::vec4));
     constants_.glazed = glazed_share(place->states);
     constants_.open_patch = place->open.empty() ? shared::kNoPatch : constants_.grid.patches;
     fill(*levels_, place->levels_m);
@@ -133,8 +142,8 @@ void GpuPlace::set_falls(std::span<const shared::FallConstants> falls)
         texels.insert(texels.end(), {fall.column, fall.row, fall.depth, glm::vec4(fall.level, fall.rain),
                                      glm::vec4(fall.snow, static_cast<float>(fall.layer), 0.0f, 0.0f)});
     }
-    const std::size_t behind = (std::size_t{constants_.grid.patches} + 1) * PLACE_STATE_TEXELS;
-    std::memcpy(states_->mapped + behind * sizeof(glm::vec4), texels.data(), texels.size() * sizeof(glm::vec4));
+    const std::size_t behind = before_states(constants_) + (std::size_t{constants_.grid.patches} + 1) * PLACE_STATE_TEXELS * sizeof(glm::vec4);
+    std::memcpy(states_->mapped + behind, texels.data(), texels.size() * sizeof(glm::vec4));
 }
 
 void bind_place(Bindings& bindings, std::uint32_t first, GpuPlace& place)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <unordered_set>
 
 #include "gpu/place/place_parts.h"
 
@@ -11,11 +13,13 @@ namespace {
 
 using namespace petrichor::shared_names;
 
-// The words behind the shared text.
+// The tables behind the shared text.
 struct PlaceLookup {
     std::span<const std::uint32_t> words;
+    std::span<const glm::uvec4> texels;
 
     uint place_word(uint index) const { return words[index]; }
+    uvec4 place_texel(uint index) const { return texels[index]; }
 
 #include "formulas/light/place_lookup.inc"
 };
@@ -27,8 +31,9 @@ namespace petrichor::gpu {
 namespace {
 
 using shared::kNoPlace;
+using shared::kPlaceAsk;
 using shared::kPlaceCut;
-using shared::kPlaceWords;
+using shared::kPlaceTexels;
 
 // Levels have four bits in a leaf.
 constexpr std::uint32_t kMostLevels = 16;
@@ -159,13 +164,13 @@ void fill(std::vector<std::uint32_t>& words, std::size_t first, const glm::ivec3
     }
 }
 
-void add_leaf(std::vector<std::uint32_t>& words, std::size_t roots, const Roots& box, const Leaf& leaf)
+void add_leaf(std::vector<std::uint32_t>& words, const Roots& box, const Leaf& leaf)
 {
     int level = box.level;
     glm::ivec3 across = box.across;
     const int over = std::max(leaf.level - level, 0);
     glm::ivec3 at = leaf.level >= level ? (leaf.cell << over) - box.first : (leaf.cell >> (level - leaf.level)) - box.first;
-    std::size_t first = roots + static_cast<std::size_t>(leaf.axis) * static_cast<std::size_t>(across.x) *
+    std::size_t first = static_cast<std::size_t>(leaf.axis) * static_cast<std::size_t>(across.x) *
                                     static_cast<std::size_t>(across.y) * static_cast<std::size_t>(across.z);
     while (leaf.level < level) {
         const int down = std::min(level, 2);
@@ -237,12 +242,70 @@ std::array<std::uint32_t, 4> sides_of(const shared::PlaceLookup& lookup, const s
     return taken;
 }
 
-void put_sides(std::vector<std::uint32_t>& words, const shared::PatchGrid& grid, const Leaf& leaf,
-               std::span<const std::uint32_t> materials)
+void put_sides(PlaceTree& tree, const Leaf& leaf, std::span<const std::uint32_t> materials)
 {
-    const std::array<std::uint32_t, 4> sides = sides_of({words}, grid, leaf, materials);
-    for (std::size_t side = 0; side < 4; ++side)
-        words[std::size_t{leaf.patch} * kPlaceWords + 1 + side] = sides[side] | materials[sides[side]] << 16;
+    const std::array<std::uint32_t, 4> sides = sides_of({tree.words, {}}, tree.grid, leaf, materials);
+    glm::uvec4& texel = tree.texels[std::size_t{leaf.patch} * kPlaceTexels];
+    for (int side = 0; side < 4; ++side) {
+        const std::uint32_t patch = sides[static_cast<std::size_t>(side)];
+        texel[side] = patch | materials[patch] << 16;
+    }
+}
+
+// Cells that are cut into finer ones.
+class CutCells {
+public:
+    // Cells around a leaf, itself where it has parts.
+    void add(const Leaf& leaf, bool parted)
+    {
+        glm::ivec3 cell = leaf.cell;
+        int level = leaf.level;
+        if (!parted) {
+            cell >>= 1;
+            ++level;
+        }
+        for (; level < static_cast<int>(kMostLevels) && cut_.insert(number_of(cell, level, leaf.axis)).second; ++level) cell >>= 1;
+    }
+    bool holds(const glm::ivec3& cell, int level, int axis) const { return cut_.contains(number_of(cell, level, axis)); }
+
+private:
+    static std::uint64_t number_of(const glm::ivec3& cell, int level, int axis)
+    {
+        const shared::PatchKey key = shared::patch_key(cell, axis, level);
+        return std::uint64_t{key.high} << 32 | key.low;
+    }
+    std::unordered_set<std::uint64_t> cut_;
+};
+
+// What a turn finds of a whole patch in the cell of its own level that lies a step away; none where that one is cut finer.
+std::optional<std::uint32_t> found_by_turn(const PlaceTree& tree, const Leaf& leaf, const glm::ivec3& step, const CutCells& cut)
+{
+    if (!sees(leaf, step)) return leaf.patch;
+    const glm::ivec3 cell = leaf.cell + step;
+    if (cut.holds(cell, leaf.level, leaf.axis)) return {};
+    const std::uint32_t there = shared::PlaceLookup{tree.words, {}}.place_leaf(tree.grid, cell << leaf.level, leaf.axis);
+    if (there == kNoPlace) return leaf.patch;
+    // Within the parts of a larger one.
+    if (shared::place_leaf_level(there) < leaf.level) return {};
+    return shared::place_leaf_patch(there);
+}
+
+// Of a part all is asked but itself.
+void put_ways(PlaceTree& tree, const Leaf& leaf, bool part, const CutCells& cut, std::span<const std::uint32_t> materials)
+{
+    const auto put = [&](int behind, int next, std::optional<std::uint32_t> patch) {
+        tree.texels[std::size_t{leaf.patch} * kPlaceTexels + static_cast<std::size_t>(2 + behind)][1 + next] =
+            patch ? *patch | materials[*patch] << 16 : kPlaceAsk;
+    };
+    for (int behind = -1; behind <= 1; ++behind) {
+        put(behind, 2, leaf.patch);
+        for (int next = -1; next <= 1; ++next) {
+            const glm::ivec3 step = step_of(leaf.axis, next, behind);
+            std::optional<std::uint32_t> patch = leaf.patch;
+            if (step != glm::ivec3(0)) patch = part ? std::nullopt : found_by_turn(tree, leaf, step, cut);
+            put(behind, next, patch);
+        }
+    }
 }
 
 }  // namespace
@@ -257,6 +320,7 @@ PlaceTree place_tree(const shared::PatchGrid& grid, std::span<const glm::uvec4> 
     const std::vector<Leaf> wholes = grid.levels > 0 ? leaves_of(grid, table, finer) : std::vector<Leaf>{};
     if (wholes.empty()) {
         tree.words.assign(1, kNoPlace);
+        tree.texels.assign(kPlaceTexels, glm::uvec4(0));
         return tree;
     }
     std::vector<const PlaceParts*> parts(grid.patches, nullptr);
@@ -277,20 +341,24 @@ PlaceTree place_tree(const shared::PatchGrid& grid, std::span<const glm::uvec4> 
                      static_cast<std::uint32_t>(box.across.y) << 14 | static_cast<std::uint32_t>(box.across.z) << 23,
                  static_cast<std::uint32_t>(materials.size()), first.low,
                  first.high | static_cast<std::uint32_t>(finer) << 25};
-    const std::size_t roots = std::size_t{tree.grid.patches} * kPlaceWords;
-    tree.words.assign(roots + std::size_t{6} * static_cast<std::size_t>(box.across.x) * static_cast<std::size_t>(box.across.y) *
-                                  static_cast<std::size_t>(box.across.z),
+    tree.words.assign(std::size_t{6} * static_cast<std::size_t>(box.across.x) * static_cast<std::size_t>(box.across.y) *
+                          static_cast<std::size_t>(box.across.z),
                       kNoPlace);
-    for (const Leaf& leaf : leaves) add_leaf(tree.words, roots, box, leaf);
-    for (std::uint32_t patch = 0; patch < tree.grid.patches; ++patch)
-        tree.words[std::size_t{patch} * kPlaceWords] = materials[patch];
+    tree.texels.assign(std::size_t{tree.grid.patches} * kPlaceTexels, glm::uvec4(0));
+    for (const Leaf& leaf : leaves) add_leaf(tree.words, box, leaf);
+    CutCells cut;
+    for (const Leaf& whole : wholes) cut.add(whole, parts[whole.patch] != nullptr);
     for (const Leaf& whole : wholes) {
-        put_sides(tree.words, tree.grid, whole, materials);
+        const auto put = [&](const Leaf& leaf, bool part) {
+            put_sides(tree, leaf, materials);
+            put_ways(tree, leaf, part, cut, materials);
+        };
+        put(whole, false);
         const PlaceParts* of = parts[whole.patch];
         for (std::uint32_t k = 0; of != nullptr && k < of->count; ++k) {
             Leaf part = whole;
             part.patch = grid.patches + of->first + k;
-            put_sides(tree.words, tree.grid, part, materials);
+            put(part, true);
         }
     }
     return tree;
@@ -298,12 +366,12 @@ PlaceTree place_tree(const shared::PatchGrid& grid, std::span<const glm::uvec4> 
 
 shared::PlaceFound place_found(const PlaceTree& tree, glm::vec3 x, glm::vec3 n, glm::vec3 turn, std::uint32_t material)
 {
-    return shared::PlaceLookup{tree.words}.place_found(tree.grid, x, n, turn, material);
+    return shared::PlaceLookup{tree.words, tree.texels}.place_found(tree.grid, x, n, turn, material);
 }
 
 shared::PlaceLeaves place_leaves(const PlaceTree& tree, glm::vec3 x, glm::vec3 n, glm::vec3 turn)
 {
-    return shared::PlaceLookup{tree.words}.place_leaves(tree.grid, x, n, turn);
+    return shared::PlaceLookup{tree.words, tree.texels}.place_leaves(tree.grid, x, n, turn);
 }
 
 }  // namespace petrichor::gpu

@@ -15,6 +15,7 @@ namespace petrichor::gpu {
 struct PlaceTree {
     shared::PatchGrid grid{};          ///< as place_lookup.inc reads it; levels 0: no patches
     std::vector<std::uint32_t> words;  ///< at least one
+    std::vector<glm::uvec4> texels;    ///< shared::kPlaceTexels a patch, at least of one
 };
 
 /// Of the table of all nodes and its grid (scene::Patches::table, scene::table_grid), behind which parts of patches may stand

@@ -10,6 +10,23 @@
 #include "scene/patches/patches.h"
 #include "tests/gpu/place_street.h"
 
+namespace petrichor::shared {
+namespace {
+
+using namespace petrichor::shared_names;
+
+struct TreeLookup {
+    const gpu::PlaceTree& tree;
+
+    uint place_word(uint index) const { return tree.words[index]; }
+    uvec4 place_texel(uint index) const { return tree.texels[index]; }
+
+#include "formulas/light/place_lookup.inc"
+};
+
+}  // namespace
+}  // namespace petrichor::shared
+
 namespace petrichor::gpu {
 namespace {
 
@@ -136,7 +153,8 @@ TEST(PlaceTree, FindsWhatTheTableOfAllNodesHas)
         ASSERT_EQ(shared::place_leaf_patch(found.other), expected.other) << i;
         levels.insert(shared::place_leaf_level(found.own));
         apart += expected.own != expected.other ? 1 : 0;
-        finer += shared::place_leaf_level(found.other) < shared::place_leaf_level(found.own) ? 1 : 0;
+        ASSERT_EQ(found.other >> 16, s.patches.material[expected.other]) << i;
+        finer += scene::level_of(s.patches.key[expected.other]) < shared::place_leaf_level(found.own) ? 1 : 0;
     }
     EXPECT_GE(levels.size(), 5u);
     EXPECT_GT(none, 300u);
@@ -214,7 +232,7 @@ TEST(PlaceTree, FindsThePartOfAPatch)
             continue;
         }
         const std::uint32_t number = shared::place_leaf_patch(found.own);
-        ASSERT_EQ(found.own, found.other);
+        ASSERT_EQ(number, shared::place_leaf_patch(found.other));
         if (of[plain.own].count == 0) {
             ASSERT_EQ(number, plain.own);
             ++whole;
@@ -245,6 +263,63 @@ TEST(PlaceTree, FindsThePartOfAPatch)
     EXPECT_GT(within, 5000u);
     EXPECT_GT(met.size(), 300u);
     EXPECT_GT(beside, 300u);
+}
+
+// What stands beside a patch in the table of texels spares a second search; it is what that search finds, where patches
+// larger and smaller than the point's have parts too.
+TEST(PlaceTree, ATurnFindsWhatASearchForItFinds)
+{
+    const Street& s = the_street();
+    const scene::Patches& p = s.patches;
+    std::vector<glm::uvec4> table = p.table;
+    std::vector<std::uint32_t> materials = p.material;
+    std::uint32_t first = 0;
+    for (std::uint32_t i = 0; i < p.count; i += 2) {
+        PlaceParts parts{i, first, 2, {}};
+        for (std::uint32_t k = 0; k < parts.of_cell.size(); ++k) parts.of_cell[k] = (k % 8 + k / 8 + i) % 5 < 2 ? 1 : 0;
+        append_parts(table, parts);
+        first += parts.count;
+        materials.insert(materials.end(), parts.count, p.material[i]);
+    }
+    const PlaceTree tree = place_tree(scene::table_grid(p), table, materials);
+    shared::TreeLookup look{tree};
+    std::size_t apart = 0, coarser = 0, finer = 0;
+    std::uint32_t i = 0;
+    for (const Point& point : points_of(s.scene, 60000)) {
+        const vec3 turn = shared::place_turn({static_cast<int>(i), static_cast<int>(i / 5)}, i % 7);
+        ++i;
+        const shared::PlaceLeaves found = place_leaves(tree, point.x, point.n, turn);
+        const shared::PlaceOwn own = look.place_own(tree.grid, point.x, point.n);
+        ASSERT_EQ(found.own, own.leaf);
+        if (own.leaf == shared::kNoPlace) continue;
+        vec3 along = turn * shared::place_edge_m(tree.grid);
+        along[own.axis / 2] = 0.0f;
+        const vec3 lifted = look.place_lifted(tree.grid, point.x, point.n);
+        const ivec3 cell0 = shared::place_cell(tree.grid, lifted);
+        const int up = shared::place_leaf_level(own.leaf);
+        // The leaf at the point moved by so wide a turn, the own one where that stays in its cell or is not seen.
+        const auto turned = [&](int level) {
+            const ivec3 there = shared::place_cell(tree.grid, lifted + along * static_cast<float>(1 << level));
+            const ivec3 step = (there >> up) - (cell0 >> up);
+            const int next = step[(own.axis / 2 + 1) % 3], behind = step[(own.axis / 2 + 2) % 3];
+            if (next == 0 && behind == 0) return own.leaf;
+            if (level == up && !shared::place_leaf_sees(own.leaf, shared::place_way(next, behind))) return own.leaf;
+            const std::uint32_t leaf = look.place_leaf(tree.grid, there, own.axis);
+            return leaf == shared::kNoPlace ? own.leaf : leaf;
+        };
+        std::uint32_t other = turned(up);
+        const int level = shared::place_leaf_level(other);
+        if (level < up) other = turned(level);
+        const std::uint32_t patch = shared::place_leaf_patch(other);
+        ASSERT_EQ(found.other, patch | materials[patch] << 16) << i;
+        ASSERT_EQ(found.own_material, materials[shared::place_leaf_patch(own.leaf)]) << i;
+        apart += patch != shared::place_leaf_patch(own.leaf) ? 1 : 0;
+        coarser += level > up ? 1 : 0;
+        finer += level < up ? 1 : 0;
+    }
+    EXPECT_GT(apart, 10000u);
+    EXPECT_GT(coarser, 300u);
+    EXPECT_GT(finer, 300u);
 }
 
 TEST(PlaceTree, WithoutPatchesNothingIsFound)

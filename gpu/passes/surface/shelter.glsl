@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_SHELTER_GLSL
 #define PETRICHOR_SURFACE_SHELTER_GLSL
 
+#include "formulas/light/place_cells.h"
 #include "formulas/noise/noise.h"
 #include "formulas/weather/depth_quads.h"
 #include "formulas/weather/falls_here.h"
@@ -28,13 +29,14 @@ vec3 stray(SurfaceInput at)
 // as much then. They lie behind the states of patches; how far off the surface is not among them.
 FallConstants fall_by_texels(int k)
 {
-    const int first = (int(frame.place.grid.patches) + 1) * PLACE_STATE_TEXELS + k * PLACE_FALL_TEXELS;
+    const uint patches = frame.place.grid.patches;
+    const int first = int(patches * kPlaceTexels + (patches + 1u) * PLACE_STATE_TEXELS) + k * PLACE_FALL_TEXELS;
     FallConstants fall;
-    fall.column = texelFetch(place_states, first);
-    fall.row = texelFetch(place_states, first + 1);
-    fall.depth = texelFetch(place_states, first + 2);
-    const vec4 level_rain = texelFetch(place_states, first + 3);
-    const vec2 snow_layer = texelFetch(place_states, first + 4).xy;
+    fall.column = uintBitsToFloat(texelFetch(place_states, first));
+    fall.row = uintBitsToFloat(texelFetch(place_states, first + 1));
+    fall.depth = uintBitsToFloat(texelFetch(place_states, first + 2));
+    const vec4 level_rain = uintBitsToFloat(texelFetch(place_states, first + 3));
+    const vec2 snow_layer = uintBitsToFloat(texelFetch(place_states, first + 4).xy);
     fall.level = level_rain.xyz;
     fall.rain = level_rain.w;
     fall.snow = snow_layer.x;

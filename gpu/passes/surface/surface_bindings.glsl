@@ -39,7 +39,7 @@ layout(set = 0, binding = SURFACE_FLOW) uniform usamplerBuffer flow_quads;
 layout(set = 0, binding = SURFACE_SNOW) uniform sampler2D snow_map;
 layout(set = 0, binding = SURFACE_SHELTER) uniform usamplerBuffer shelter_quads;  // of the depth maps of the sky
 layout(set = 0, binding = SURFACE_PLACE_TABLE) uniform usamplerBuffer place_table;
-layout(set = 0, binding = SURFACE_PLACE_STATES) uniform samplerBuffer place_states;
+layout(set = 0, binding = SURFACE_PLACE_STATES) uniform usamplerBuffer place_states;
 layout(set = 0, binding = SURFACE_PLACE_LABELS) uniform usamplerBuffer place_labels;
 layout(set = 0, binding = SURFACE_PLACE_LEVELS) uniform samplerBuffer place_levels;
 layout(set = 0, binding = SURFACE_TRACKS) uniform sampler2D track_map;
