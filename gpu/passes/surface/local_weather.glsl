@@ -71,37 +71,33 @@ float pond_m(SurfaceInput at)
 
 LocalWeather local_weather(SurfaceInput at)
 {
-    if (PLACE == 0u) return weather_everywhere(at, exposure_to_sky(at, true));
+    if (PLACE == 0u) return weather_everywhere(at, exposure_to_sky(at));
     PlaceFound near = place_found(frame.place.grid, at.position, at.normal, place_turn(picture_pixel(at.pixel), frame.sample_index), at.material_id);
     const bool beyond = near.number == kNoPatch;
-    const Exposure open = exposure_to_sky(at, beyond);
-    const float pond = pond_m(at);
     // Ground goes on beyond its patches as they are in the open, or a border would show.
-    if (beyond && place_open(at.normal, at.material_id)) {
-        near.number = frame.place.open_patch;
-        near.of_material = true;
-    }
-    if (near.number == kNoPatch) {
-        LocalWeather everywhere = weather_everywhere(at, open);
+    if (beyond && at.normal.y > 0.3) near.number = frame.place.open_patch;
+    const PlaceAnswer answer = place_answer(at, near.number, beyond);
+    const float pond = pond_m(at);
+    if (beyond) near.of_material = near.number != kNoPatch && uint(answer.last.w) == at.material_id;
+    if (beyond && !near.of_material) {
+        LocalWeather everywhere = weather_everywhere(at, answer.open);
         everywhere.pond_m = pond;
         return everywhere;
     }
-    const vec4 first_texel = place_state(near.number, 0);
-    const vec4 second_texel = place_state(near.number, 1);
     LocalWeather here;
-    here.open = min(second_texel.z, 1.0);
-    here.film = max(first_texel.x, glaze_of(near.number));
-    here.flood = first_texel.yz;
-    here.snow = first_texel.w;
-    here.frost = second_texel.x;
-    here.frozen = second_texel.y;
+    here.open = min(answer.second.z, 1.0);
+    here.film = max(answer.first.x, wetness_of_film(answer.last.z));
+    here.flood = answer.first.yz;
+    here.snow = answer.first.w;
+    here.frost = answer.second.x;
+    here.frozen = answer.second.y;
     here.still = 1.0 - exp2(-10.0 * here.frozen);
     here.pond_m = pond;
-    here.volume = WATER != 0u && second_texel.w > 0.0;
+    here.volume = WATER != 0u && answer.second.w > 0.0;
     // The heights of another material's relief mean nothing here.
-    here.level = !here.volume ? 0.0 : near.of_material ? second_texel.w - 2.0 : -1.0;
+    here.level = !here.volume ? 0.0 : near.of_material ? answer.second.w - 2.0 : -1.0;
     here.placed = true;
-    if (beyond) below_what_is_near(here, at, open);
+    if (beyond) below_what_is_near(here, at, answer.open);
     return here;
 }
 

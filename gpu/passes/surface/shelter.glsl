@@ -25,25 +25,6 @@ vec3 stray(SurfaceInput at)
     return flat_way - at.normal * dot(at.normal, flat_way);
 }
 
-// By a number that is known as the shader runs alone: texels, since words of a uniform block cost a CPU several times
-// as much then. They lie behind the states of patches; how far off the surface is not among them.
-FallConstants fall_by_texels(int k)
-{
-    const uint patches = frame.place.grid.patches;
-    const int first = int(patches * kPlaceTexels + (patches + 1u) * PLACE_STATE_TEXELS) + k * PLACE_FALL_TEXELS;
-    FallConstants fall;
-    fall.column = uintBitsToFloat(texelFetch(place_states, first));
-    fall.row = uintBitsToFloat(texelFetch(place_states, first + 1));
-    fall.depth = uintBitsToFloat(texelFetch(place_states, first + 2));
-    const vec4 level_rain = uintBitsToFloat(texelFetch(place_states, first + 3));
-    const vec2 snow_layer = uintBitsToFloat(texelFetch(place_states, first + 4).xy);
-    fall.level = level_rain.xyz;
-    fall.rain = level_rain.w;
-    fall.snow = snow_layer.x;
-    fall.layer = int(snow_layer.y);
-    return fall;
-}
-
 // Adds what falls along one direction. lifted: off the surface.
 void fall_on(inout Exposure open, SurfaceInput at, vec4 lifted, FallConstants fall)
 {
@@ -60,33 +41,75 @@ void fall_on(inout Exposure open, SurfaceInput at, vec4 lifted, FallConstants fa
     open.sky += fall.snow * seen * facing;
 }
 
+// Off the surface, where looks to the sky begin.
+vec4 lifted_point(SurfaceInput at) { return vec4(at.position + stray(at) + at.normal * fall_of(0).lift_m, 1.0); }
+
+bool shelters_are_known() { return (frame.flags & FRAME_SHELTER) != 0u; }
+
 // By the depth maps of the sky, along the few directions that rain and snow come from: as many as the pipeline is
 // made for, one by one. A CPU gathers constants of a loop for each pixel of a group, those of a fixed place once.
-Exposure exposure_to_sky(SurfaceInput at, bool asked)
+Exposure exposure_to_sky(SurfaceInput at)
 {
-    Exposure open;
-    open.rain = 1.0;
-    open.snow = 1.0;
-    open.sky = 1.0;
-    if ((frame.flags & FRAME_SHELTER) == 0u) return open;
-    open.rain = 0.0;
-    open.snow = 0.0;
-    open.sky = 0.0;
-    const vec4 lifted = vec4(at.position + stray(at) + at.normal * fall_of(0).lift_m, 1.0);
-    if (PLACE != 0u) {
-        // Most ask their patch: a loop ends where none of a group does not.
-        // It asks at its end: a CPU takes a loop that asks at its beginning once more, for nobody.
-        int k = 0;
-        do {
-            if (asked && k < FALLS) fall_on(open, at, lifted, fall_by_texels(k));
-        } while (++k < (asked ? FALLS : 0));
-        return open;
-    }
+    if (!shelters_are_known()) return Exposure(1.0, 1.0, 1.0);
+    Exposure open = Exposure(0.0, 0.0, 0.0);
+    const vec4 lifted = lifted_point(at);
 #define FALL(k) if (FALLS > k) fall_on(open, at, lifted, fall_of(k));
     FALL(0) FALL(1) FALL(2) FALL(3) FALL(4) FALL(5) FALL(6) FALL(7)
     FALL(8) FALL(9) FALL(10) FALL(11) FALL(12) FALL(13) FALL(14) FALL(15)
 #undef FALL
     return open;
+}
+
+// What a point asks the table of states (gpu/frame/place.glsl).
+struct PlaceAnswer {
+    vec4 first;  // texels 0, 1 and 3 of a state
+    vec4 second;
+    vec4 last;
+    Exposure open;
+};
+
+// number: of a state, kNoPatch for none; beyond: how open it is to the sky is asked. Where rain comes from lies behind the states
+// (place_falls_io.h), since words of a uniform block cost a CPU several times as much once their number is known as the shader runs
+// alone. So a turn of one loop reads five texels either way, and a group of pixels that all have a patch, as most do, reads no others.
+PlaceAnswer place_answer(SurfaceInput at, uint number, bool beyond)
+{
+    const bool looks = beyond && shelters_are_known();
+    const float none = looks ? 0.0 : 1.0;
+    PlaceAnswer answer;
+    answer.first = vec4(0.0);
+    answer.second = vec4(0.0);
+    answer.last = vec4(0.0);
+    answer.open = Exposure(none, none, none);
+    const vec4 lifted = lifted_point(at);
+    const uint patches = frame.place.grid.patches;
+    const int states = int(patches * kPlaceTexels);
+    const int falls = states + int(patches + 1u) * PLACE_STATE_TEXELS;
+    const int turns = looks ? FALLS : 0;
+    int k = -1;
+    // It asks at its end: a CPU takes a loop that asks at its beginning once more, for nobody. All points that look take as many turns,
+    // and one that does not reads its state in each, since a CPU keeps what points come to that have left a loop before others.
+    do {
+        const bool state = k < 0 || !looks;
+        const int from = state && number != kNoPatch ? states + int(number) * PLACE_STATE_TEXELS : falls + max(k, 0) * PLACE_FALL_TEXELS;
+        const vec4 a = uintBitsToFloat(texelFetch(place_states, from));
+        const vec4 b = uintBitsToFloat(texelFetch(place_states, from + 1));
+        const vec4 c = uintBitsToFloat(texelFetch(place_states, from + 2));
+        const vec4 d = uintBitsToFloat(texelFetch(place_states, from + 3));
+        const vec4 e = uintBitsToFloat(texelFetch(place_states, from + 4));
+        answer.first = state ? a : answer.first;
+        answer.second = state ? b : answer.second;
+        answer.last = state ? d : answer.last;
+        FallConstants fall;
+        fall.column = a;
+        fall.row = b;
+        fall.depth = c;
+        fall.level = d.xyz;
+        fall.rain = d.w;
+        fall.snow = e.x;
+        fall.layer = state ? 0 : int(e.y);
+        if (!state) fall_on(answer.open, at, lifted, fall);
+    } while (++k < turns);
+    return answer;
 }
 
 #endif
