@@ -175,20 +175,33 @@ TEST(PictureForms, FollowSmallSteps)
         return i < 2 ? step(i, 1.0f) : std::size_t{0};
     });
     ASSERT_EQ(forms.cases.size(), scores.size());
-    for (const std::size_t none : {0u, 1u}) EXPECT_NE(forms.cases[0].slope[none], 0.0f) << "or this shows nothing";
+    for (const std::size_t none : {0u, 1u}) {
+        EXPECT_NE(forms.cases[0].all.slope[none], 0.0f) << "or this shows nothing";
+        EXPECT_NE(forms.cases[0].moving.slope[none], 0.0f) << "or this shows nothing";
+    }
     const float x[] = {0.5f, -0.7f};
     step(0, x[0]), step(1, x[1]);
     const std::vector<PictureScore> after = bench.score(chain);
     for (std::size_t c = 0; c < scores.size(); ++c) {
-        const PictureForms::Case& form = forms.cases[c];
-        EXPECT_NEAR(form.error, scores[c].rmse * scores[c].rmse, 1e-3 * form.error) << scores[c].name;
-        double said = form.error;
-        for (std::size_t i = 0; i < 2; ++i) {
-            said += 2.0 * static_cast<double>(x[i] * form.slope[i]);
-            for (std::size_t j = 0; j < 2; ++j) said += static_cast<double>(x[i] * x[j] * form.square[2 * i + j]);
-        }
-        const double change = after[c].rmse * after[c].rmse - form.error;
-        EXPECT_NEAR(said - form.error, change, 0.1 * std::abs(change) + 2e-4 * form.error) << scores[c].name;
+        const auto said = [&](const PictureForms::Form& form) {
+            double sum = form.error;
+            for (std::size_t i = 0; i < 2; ++i) {
+                sum += 2.0 * static_cast<double>(x[i] * form.slope[i]);
+                for (std::size_t j = 0; j < 2; ++j) sum += static_cast<double>(x[i] * x[j] * form.square[2 * i + j]);
+            }
+            return sum;
+        };
+        const PictureForms::Form &all = forms.cases[c].all, &moving = forms.cases[c].moving;
+        EXPECT_NEAR(all.error, scores[c].rmse * scores[c].rmse, 1e-3 * all.error) << scores[c].name;
+        const double change = after[c].rmse * after[c].rmse - all.error;
+        EXPECT_NEAR(said(all) - all.error, change, 0.1 * std::abs(change) + 2e-4 * all.error) << scores[c].name;
+        // Of the deviation in time it is a bound, which is higher where hardly anything moves.
+        EXPECT_GE(moving.error, scores[c].flicker) << scores[c].name;
+        EXPECT_LE(moving.error, scores[c].flicker + 1e-3) << scores[c].name;
+        EXPECT_GE(said(moving), after[c].flicker * (1.0 - 1e-3)) << scores[c].name;
+        EXPECT_NEAR(said(moving) - moving.error, after[c].flicker - scores[c].flicker,
+                    0.2 * std::abs(after[c].flicker - scores[c].flicker) + 5e-4 * moving.error)
+            << scores[c].name;
     }
 }
 
@@ -196,7 +209,7 @@ TEST(PictureForms, FollowSmallSteps)
 TEST(LookPrice, ALightThatGetsWorseHoldsBackWhatAnotherGains)
 {
     const auto light = [](double error, float slope) {
-        return std::vector<PictureForms::Case>(kHeldOutViews, {error, {slope}, {0.01f}});
+        return std::vector<PictureForms::Case>(kHeldOutViews, {{error, {slope}, {0.01f}}, {1.0, {0.0f}, {0.0f}}});
     };
     PictureForms forms{1, light(1.0, -0.1f)};
     const std::vector<PictureScore> plain(2 * kHeldOutViews, {"", 1.0, 1.0});
@@ -208,6 +221,15 @@ TEST(LookPrice, ALightThatGetsWorseHoldsBackWhatAnotherGains)
     const float held = cheapest_steps(forms, plain, low, high, 1).front();
     EXPECT_GT(held, 0.5f);
     EXPECT_LT(held, 3.0f);
+}
+
+// Nothing is nearer to the truth for it, but less of it moves.
+TEST(LookPrice, WhatFlickersLessIsCheaper)
+{
+    const PictureForms forms{1, std::vector<PictureForms::Case>(kHeldOutViews, {{1.0, {0.0f}, {1e-6f}}, {1.0, {-0.1f}, {0.05f}}})};
+    const std::vector<PictureScore> plain(kHeldOutViews, {"", 1.0, 1.0});
+    const float low[] = {-20.0f}, high[] = {20.0f};
+    EXPECT_NEAR(cheapest_steps(forms, plain, low, high, 1).front(), 2.0f, 0.1f);
 }
 
 TEST(LookPrice, ItsSlopeIsThatOfThePrice)

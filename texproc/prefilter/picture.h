@@ -95,12 +95,17 @@ struct PictureScore {
     double flicker = 0.0;  ///< mean over the pixels of the standard deviation of the error in time
 };
 
-/// Of each case: (error + 2 slope x + x square x) is the mean of the squares over pixels and frames, x in steps.
+/// Of each case, for x steps: error + 2 slope x + x square x. Of all it is the mean of the squares over pixels and
+/// frames; of what moves a bound of the mean over the pixels of the deviation in time, which touches it at x = 0 but for
+/// pixels where hardly anything moves.
 struct PictureForms {
     std::size_t count = 0;
-    struct Case {
+    struct Form {
         double error = 0.0;
         std::vector<float> slope, square;  ///< count; count times count
+    };
+    struct Case {
+        Form all, moving;
     };
     std::vector<Case> cases;
 };

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -96,6 +98,25 @@ std::vector<PictureScore> PictureBench::Retake::score(const Prefiltered& chain,
     return scores;
 }
 
+namespace {
+
+// A deviation in time below half a code of 255 is taken for that, and has hardly a slope: nobody sees it.
+constexpr float kStill = 0.002f;
+
+// Adds up squares of errors that change with numbers: those of `seen`, by `change` each.
+void add_square(PictureForms::Form& to, float weight, float error, const std::vector<std::size_t>& seen,
+                const std::vector<float>& change)
+{
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        const float scaled = weight * change[i];
+        to.slope[seen[i]] += error * scaled;
+        float* const row = &to.square[seen[i] * to.slope.size()];
+        for (std::size_t j = 0; j < seen.size(); ++j) row[seen[j]] += scaled * change[j];
+    }
+}
+
+}  // namespace
+
 PictureForms PictureBench::Retake::forms(const Prefiltered& chain, std::size_t count,
                                          const std::function<std::size_t(std::size_t)>& vary) const
 {
@@ -109,51 +130,73 @@ PictureForms PictureBench::Retake::forms(const Prefiltered& chain, std::size_t c
     vary(count);
     const std::vector<const Level*> levels = s.merged(state_->own);
     PictureForms forms{count, std::vector<PictureForms::Case>(s.options.cases.size())};
-    for (PictureForms::Case& c : forms.cases) c.slope.resize(count), c.square.resize(count * count);
+    for (PictureForms::Case& c : forms.cases) {
+        for (PictureForms::Form* form : {&c.all, &c.moving}) {
+            form->slope.resize(count);
+            form->square.resize(count * count);
+        }
+    }
     // View by view: each adds up its rows in their order.
     parallel_for(state_->views.size(), s.options.threads, [&](std::size_t v) {
         const State::View& view = state_->views[v];
         if (view.cases.empty()) return;
         const std::size_t width = static_cast<std::size_t>(s.options.views[v].width);
         const std::size_t rows = view.rows.size(), frames = static_cast<std::size_t>(s.options.frames);
-        const float each = 1.0f / static_cast<float>(width * rows * frames);
+        const float each = 1.0f / static_cast<float>(width * rows), each_frame = each / static_cast<float>(frames);
         std::vector<const Level*> other = levels;
         for (std::size_t y = 0; y < rows; ++y) {
             std::vector<std::size_t> seen;
             for (std::size_t i = 0; i < count; ++i)
                 if (view.sees[y] & (1u << level_of[i])) seen.push_back(i);
-            std::vector<std::vector<float>> line(view.cases.size(), std::vector<float>(width));
-            std::vector<std::vector<std::vector<float>>> lines(seen.size(), line);
+            // As it is, then with each number a step on; of each all frames.
+            using Line = std::vector<std::vector<float>>;
+            std::vector<std::vector<Line>> lines(
+                1 + seen.size(), std::vector<Line>(frames, Line(view.cases.size(), std::vector<float>(width))));
             for (std::size_t f = 0; f < frames; ++f) {
-                const auto shade_all = [&](std::vector<std::vector<float>>& to) {
+                const auto shade_all = [&](Line& to) {
                     for (std::size_t x = 0; x < width; ++x) {
                         const State::Pixel& pixel = view.pixels[(y * frames + f) * width + x];
                         s.shade_pixel(other, pixel.taps, pixel.to_eye, view.cases, x, to);
                     }
                 };
-                shade_all(line);
+                shade_all(lines[0][f]);
                 for (std::size_t i = 0; i < seen.size(); ++i) {
                     const std::size_t level = level_of[seen[i]];
                     other[level] = &varied[seen[i]];
-                    shade_all(lines[i]);
+                    shade_all(lines[1 + i][f]);
                     other[level] = levels[level];
                 }
-                std::vector<float> change(seen.size());
-                for (std::size_t c = 0; c < view.cases.size(); ++c) {
-                    const std::size_t which = view.cases[c];
-                    PictureForms::Case& to = forms.cases[which];
-                    for (std::size_t x = 0; x < width; ++x) {
-                        const float now = shown(line[c][x], s.exposure[which]);
-                        const float error = now - s.truth[which][(f * rows + y) * width + x];
-                        to.error += static_cast<double>(each * error * error);
+            }
+            std::vector<float> error(frames), mean(seen.size());
+            std::vector<std::vector<float>> change(frames, mean);
+            for (std::size_t c = 0; c < view.cases.size(); ++c) {
+                const std::size_t which = view.cases[c];
+                PictureForms::Case& to = forms.cases[which];
+                for (std::size_t x = 0; x < width; ++x) {
+                    float middle = 0.0f, squares = 0.0f;
+                    std::fill(mean.begin(), mean.end(), 0.0f);
+                    for (std::size_t f = 0; f < frames; ++f) {
+                        const float now = shown(lines[0][f][c][x], s.exposure[which]);
+                        error[f] = now - s.truth[which][(f * rows + y) * width + x];
+                        to.all.error += static_cast<double>(each_frame * error[f] * error[f]);
+                        middle += error[f] / static_cast<float>(frames);
                         for (std::size_t i = 0; i < seen.size(); ++i) {
-                            change[i] = shown(lines[i][c][x], s.exposure[which]) - now;
-                            to.slope[seen[i]] += each * error * change[i];
+                            change[f][i] = shown(lines[1 + i][f][c][x], s.exposure[which]) - now;
+                            mean[i] += change[f][i] / static_cast<float>(frames);
                         }
-                        for (std::size_t i = 0; i < seen.size(); ++i)
-                            for (std::size_t j = 0; j < seen.size(); ++j)
-                                to.square[seen[i] * count + seen[j]] += each * change[i] * change[j];
+                        add_square(to.all, each_frame, error[f], seen, change[f]);
                     }
+                    for (std::size_t f = 0; f < frames; ++f) {
+                        error[f] -= middle;
+                        squares += error[f] * error[f];
+                        for (std::size_t i = 0; i < seen.size(); ++i) change[f][i] -= mean[i];
+                    }
+                    // sqrt(v) <= (v / d + d) / 2 for any d, and the same where d^2 = v.
+                    const float variance = squares / static_cast<float>(frames), deviation = std::sqrt(variance);
+                    const float about = std::max(deviation, kStill);
+                    to.moving.error += static_cast<double>(each * 0.5f * (variance / about + about));
+                    for (std::size_t f = 0; f < frames; ++f)
+                        add_square(to.moving, 0.5f * each_frame / about, error[f], seen, change[f]);
                 }
             }
         }

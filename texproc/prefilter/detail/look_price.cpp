@@ -27,31 +27,45 @@ double soft_plus(double x)
     return x > 30.0 ? x : std::log1p(std::exp(x));
 }
 
+// A form at x, and half of its slope there.
+double value_at(const PictureForms::Form& form, const std::vector<float>& x, std::span<float> rise)
+{
+    const std::size_t n = x.size();
+    std::copy(form.slope.begin(), form.slope.end(), rise.begin());
+    for (std::size_t i = 0; i < n; ++i) {
+        if (x[i] == 0.0f) continue;
+        const float* row = &form.square[i * n];
+        for (std::size_t j = 0; j < n; ++j) rise[j] += x[i] * row[j];
+    }
+    double value = form.error;
+    for (std::size_t i = 0; i < n; ++i) value += static_cast<double>(x[i] * (rise[i] + form.slope[i]));
+    return value;
+}
+
 // The price of the forms at x, and its slope. of_level: numbers of a level, one level after another.
 double price_at(const PictureForms& forms, const std::vector<PictureScore>& plain, std::size_t of_level,
                 const std::vector<float>& x, std::vector<float>& slope)
 {
     const std::size_t n = forms.count, cases = forms.cases.size();
     std::vector<double> changes(cases), by(cases);
-    std::vector<float> rises(cases * n);  // of the change of each case
+    std::vector<float> rises(cases * n), moves(n);  // of the change of each case
+    std::fill(slope.begin(), slope.end(), 0.0f);
+    double price = 0.0;
     for (std::size_t c = 0; c < cases; ++c) {
-        const PictureForms::Case& form = forms.cases[c];
-        float* rise = &rises[c * n];
-        std::copy(form.slope.begin(), form.slope.end(), rise);
-        for (std::size_t i = 0; i < n; ++i) {
-            if (x[i] == 0.0f) continue;
-            const float* row = &form.square[i * n];
-            for (std::size_t j = 0; j < n; ++j) rise[j] += x[i] * row[j];
-        }
-        double square = form.error;
-        for (std::size_t i = 0; i < n; ++i) square += static_cast<double>(x[i] * (rise[i] + form.slope[i]));
+        const std::span<float> rise(&rises[c * n], n);
+        const double square = value_at(forms.cases[c].all, x, rise);
         const double rmse = std::sqrt(std::max(square, kLeastSquare));
         changes[c] = change_of(rmse, plain[c].rmse);
         const float scale = static_cast<float>(1.0 / (rmse * (plain[c].rmse + kNothing)));
-        for (std::size_t i = 0; i < n; ++i) rise[i] *= scale;
+        for (float& r : rise) r *= scale;
+        // What moves is a form itself.
+        const double moving = value_at(forms.cases[c].moving, x, moves);
+        const double weight = kFlickerWeight / static_cast<double>(cases);
+        price += weight * change_of(moving, plain[c].flicker);
+        const float of_moving = static_cast<float>(2.0 * weight / (plain[c].flicker + kNothing));
+        for (std::size_t i = 0; i < n; ++i) slope[i] += of_moving * moves[i];
     }
-    double price = look_price(changes, by);
-    std::fill(slope.begin(), slope.end(), 0.0f);
+    price += look_price(changes, by);
     for (std::size_t c = 0; c < cases; ++c)
         for (std::size_t i = 0; i < n; ++i) slope[i] += static_cast<float>(by[c]) * rises[c * n + i];
     for (std::size_t i = 0; i + of_level < n; ++i) {
