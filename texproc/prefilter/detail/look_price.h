@@ -17,8 +17,8 @@ namespace petrichor::texproc::detail {
 ///   slope    by how much more it costs for more of each; as many
 double look_price(std::span<const double> changes, std::span<double> slope);
 
-/// Steps of the numbers for which the forms cost least by look_price(), as far as is found by going downhill from no
-/// step at all; each within low..high. Of levels that the pictures do not see they are those of the level beside them.
+/// Steps of the numbers for which the forms cost least by look_price() and by their flicker (kFlickerWeight), as far as
+/// is found by going downhill from no step at all; each within low..high. Of levels that the pictures do not see they are those of the level beside them.
 ///
 ///   plain     scores of plain mips, a row a case
 ///   of_level  numbers of a level; those of one level stand before those of the next

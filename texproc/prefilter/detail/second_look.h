@@ -12,10 +12,10 @@ namespace petrichor::texproc::detail {
 /// Weighs fitted levels once more, with pictures of whole floors that nothing was fitted to or chosen with
 /// (held_out_pictures(), drawn from floors_seed()): of each level how far it goes back to plain mips, as a whole, in
 /// its roughness or in either normal, how wide its lobes are, how much the second one counts, and how dark the base
-/// colour is where it is written (PrefilterOptions::base_colors). All of these numbers move at once, downhill on the
-/// squared errors as forms of them, and stay where the pictures agree. The mean of the pictures is to be small, and
-/// under no light the mean of its views worse than with plain mips, as far as that can be had: a price, no promise
-/// (look_price()).
+/// colour is where it is written (PrefilterOptions::base_colors). All of these numbers move at once, downhill on forms
+/// of the squared errors and of what moves, and stay where the pictures agree. The mean of the pictures is to be
+/// small, and under no light the mean of its views worse than with plain mips, as far as that can be had: a price, no
+/// promise (look_price()).
 ///
 ///   of_maps  holds the maps, and their plain mips
 ///   chain    its levels that are fitted are changed
