@@ -96,9 +96,9 @@ void check(const SceneOptions& options)
     parse_size(options.size);
 }
 
-void write_basins(const SceneOptions& options, const SceneView& view, const GroundView& ground)
+void write_basins(const SceneOptions& options, const SceneView& view)
 {
-    const Pixels pixels = draw_basins(ground, options.rain_mm);
+    const Pixels pixels = draw_basins(view.ground, options.rain_mm);
     texproc::write_png8(options.output, pixels.width, pixels.height, 3, pixels.rgb,
                         {{"scene", view.scene->name}, {"map", options.map}});
 }
@@ -108,15 +108,16 @@ void run(SceneOptions options)
     check(options);
     if (!options.glb.empty()) return write_demo(options);
     options.view.quiet = options.json;
+    options.view.ground = options.bake.what.empty();
+    options.view.holes = !options.map.empty() && options.map != kBasinsMap;
     const SceneView view = open_scene(options.view);
     if (!options.bake.what.empty()) {
         options.bake.light.north_degrees = options.conditions.north_degrees;
         std::cout << bake_light_maps(view, options.view, options.bake, options.output);
         return;
     }
-    const GroundView ground = find_scene_ground(*view.scene);
     if (options.map == kBasinsMap) {
-        write_basins(options, view, ground);
+        write_basins(options, view);
     } else if (!options.map.empty()) {
         const ImageSize size = parse_size(options.size);
         MapPicture picture;
@@ -134,9 +135,9 @@ void run(SceneOptions options)
                             {{"scene", view.scene->name}, {"map", options.map}});
     }
     if (options.json)
-        std::cout << scene_json(view, ground) << "\n";
+        std::cout << scene_json(view) << "\n";
     else
-        std::cout << scene_report(view, ground);
+        std::cout << scene_report(view);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "cli/scene/scene_view.h"
 
 #include <sys/resource.h>
+#include <time.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -34,6 +36,13 @@ double cpu_seconds()
         return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double thread_cpu_seconds()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 constexpr std::uintmax_t kLargeFile = 32u << 20;  // takes a while to be read
@@ -155,8 +164,26 @@ SceneView open_scene(const SceneViewOptions& options)
     }
     if (!options.fresh) transport.cache = user_cache();
     const double before = cpu_seconds();
+    // Beside patches, which from the cache keep one thread busy and no more.
+    struct TimedGround {
+        GroundView found;
+        double cpu_seconds;
+    };
+    std::future<TimedGround> ground;
+    if (options.ground) {
+        ground = std::async(options.threads == 1 ? std::launch::deferred : std::launch::async, [&] {
+            const double start = thread_cpu_seconds();
+            GroundView found = find_scene_ground(*view.scene);
+            return TimedGround{std::move(found), thread_cpu_seconds() - start};
+        });
+    }
     view.transport = prepare_transport(*view.scene, transport);
     view.cpu_seconds = cpu_seconds() - before;
+    if (options.ground) {
+        TimedGround timed = ground.get();
+        view.ground = std::move(timed.found);
+        view.cpu_seconds = cpu_seconds() - before - timed.cpu_seconds;
+    }
     if (options.fresh) {
         const double start = cpu_seconds();
         if (progress) progress->stage("what is close, lamps and glow", true);
@@ -165,8 +192,9 @@ SceneView open_scene(const SceneViewOptions& options)
         view.close = {lights->near.entries(), lights->near.sources(), cpu_seconds() - start};
     }
     std::vector<std::string> said;
-    view.triangles =
-        std::make_unique<scene::Triangles>(*view.scene, alpha_images(*view.scene, said));
+    std::vector<scene::AlphaImage> holes;
+    if (options.holes) holes = alpha_images(*view.scene, said);
+    view.triangles = std::make_unique<scene::Triangles>(*view.scene, holes);
     return view;
 }
 
@@ -202,8 +230,9 @@ Ground find_ground(const scene::Patches& patches)
     return ground;
 }
 
-std::string scene_report(const SceneView& view, const GroundView& hollows)
+std::string scene_report(const SceneView& view)
 {
+    const GroundView& hollows = view.ground;
     const scene::Patches& p = view.patches();
     const scene::Triangles& t = *view.triangles;
     const Totals totals = totals_of(view);
@@ -270,8 +299,9 @@ std::string scene_report(const SceneView& view, const GroundView& hollows)
     return out.str();
 }
 
-std::string scene_json(const SceneView& view, const GroundView& hollows)
+std::string scene_json(const SceneView& view)
 {
+    const GroundView& hollows = view.ground;
     const scene::Patches& p = view.patches();
     const scene::Triangles& t = *view.triangles;
     const Totals totals = totals_of(view);

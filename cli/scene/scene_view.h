@@ -21,6 +21,7 @@ struct SceneView {
     std::unique_ptr<scene::Scene> scene;  ///< does not move: triangles point into it
     film::SceneTransport transport;
     std::unique_ptr<scene::Triangles> triangles;
+    GroundView ground;         ///< where SceneViewOptions asked for it
     double cpu_seconds = 0.0;  ///< of patches, all threads
     /// What is close to them, lamps and glow: for fresh ones alone, since only renders want it.
     struct Close {
@@ -39,6 +40,8 @@ struct SceneViewOptions {
     int threads = 0;
     bool fresh = false;  ///< neither looks into the cache nor writes to it
     bool quiet = false;  ///< no progress
+    bool ground = true;  ///< hollows are found, while patches are
+    bool holes = false;  ///< triangles know their holes: for rays of one's own
 };
 
 /// Reads the scene and its patches. Throws Error for a missing or damaged scene.
@@ -54,8 +57,8 @@ struct Ground {
 Ground find_ground(const scene::Patches& patches);
 
 /// What is worth knowing, in lines or as JSON.
-std::string scene_report(const SceneView& view, const GroundView& ground);
-std::string scene_json(const SceneView& view, const GroundView& ground);
+std::string scene_report(const SceneView& view);
+std::string scene_json(const SceneView& view);
 
 }  // namespace petrichor::cli
 

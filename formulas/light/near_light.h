@@ -32,9 +32,13 @@ SHARED_FN vec3 near_crossing(vec3 p, vec3 q, float height_p, float height_q)
     return near_direction(p * abs(height_q) + q * abs(height_p));
 }
 
+// What looks at a point from less than this of its own size away is the back of the sheet on which the point lies: a
+// point is on it to rounding, and half of them would be in front.
+SHARED_CONST float kNearSheet = 1.0e-3f;
+
 // Share of a hemisphere about n, by cosine, that a convex polygon of four corners fills, 0..1: Lambert's sum
 // over the edges of what of it is above the horizon. Corners relative to the point, in one plane, in turn from
-// its front, the last one twice for a triangle; 0 from behind.
+// its front, the last one twice for a triangle; 0 from behind, and of the back of the point's own sheet.
 SHARED_FN float near_form_factor(vec3 a, vec3 b, vec3 c, vec3 d, vec3 n)
 {
     const float ha = dot(a, n);
@@ -61,8 +65,14 @@ SHARED_FN float near_form_factor(vec3 a, vec3 b, vec3 c, vec3 d, vec3 n)
     const vec3 down = up_a && !up_b ? ab : up_b && !up_c ? bc : up_c && !up_d ? cd : up_d && !up_a ? da : none;
     const vec3 up = !up_a && up_b ? ab : !up_b && up_c ? bc : !up_c && up_d ? cd : !up_d && up_a ? da : none;
     sum = sum + near_edge(down, up, n);
-    const bool front = dot(cross(c - a, d - b), a) < 0.0f;
-    return front ? clamp(sum, 0.0f, 1.0f) : 0.0f;
+    const vec3 diagonal = c - a;
+    const vec3 area = cross(diagonal, d - b);
+    const float area2 = dot(area, area);
+    const float before = -dot(area, a);  // how far in front of it the point is, times the length of area
+    const float against = -dot(area, n);
+    const bool own_sheet = against > 0.0f && against * against > 0.5f * area2 &&
+                           before * before < kNearSheet * kNearSheet * area2 * dot(diagonal, diagonal);
+    return before > 0.0f && !own_sheet ? clamp(sum, 0.0f, 1.0f) : 0.0f;
 }
 
 SHARED_END

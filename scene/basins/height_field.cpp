@@ -98,11 +98,13 @@ CellRange cells_between(double low, double high, double corner, double cell_m, s
             static_cast<std::size_t>(std::min(to, last))};
 }
 
-// Fills rows [first, last) of the field.
+// Fills rows [first, last) of the field. columns: room for them, whatever stands in it.
 void fill_band(HeightField& field, std::size_t first, std::size_t last,
-               const std::vector<GroundTriangle>& triangles, const GroundOptions& options)
+               const std::vector<GroundTriangle>& triangles, const GroundOptions& options,
+               std::vector<std::vector<Layer>>& columns)
 {
-    std::vector<std::vector<Layer>> columns((last - first) * field.width);
+    columns.resize((last - first) * field.width);
+    for (std::vector<Layer>& column : columns) column.clear();
     const double corner_z = field.corner_m.y + static_cast<double>(first) * field.cell_m;
     for (const GroundTriangle& t : triangles) {
         const auto [low_z, high_z] = std::minmax({t.corner[0].z, t.corner[1].z, t.corner[2].z});
@@ -177,8 +179,9 @@ HeightField ground_height_field(const Scene& scene, const GroundOptions& options
             "the scene is wider than 32 m: hollows are looked for around most of its triangles");
     }
     field.height_m.resize(field.cells());
+    std::vector<std::vector<Layer>> columns;
     for (std::size_t row = 0; row < field.depth; row += kBandRows)
-        fill_band(field, row, std::min(field.depth, row + kBandRows), triangles.all, options);
+        fill_band(field, row, std::min(field.depth, row + kBandRows), triangles.all, options, columns);
     return field;
 }
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 namespace petrichor::scene {
 
@@ -71,16 +73,71 @@ struct Labels {
     std::vector<Saddle> saddles;  // one a pair of labels, sorted
 };
 
-// A cell that a labelled neighbour has reached.
-struct Reached {
-    float height_m;
-    std::uint64_t order;
-    std::size_t cell;
-    std::uint32_t label;
-    bool operator<(const Reached& o) const  // the heap gives the lowest first
-    {
-        return std::tie(height_m, order) > std::tie(o.height_m, o.order);
+// Cells with ground by height, outlets first among equals (a flat that touches one is no pit), then by number.
+std::vector<std::uint32_t> cells_by_height(const HeightField& field, const std::vector<std::uint8_t>& leads_out)
+{
+    struct Keyed {
+        std::uint64_t key;
+        std::uint32_t cell;
+    };
+    std::vector<Keyed> keyed;
+    keyed.reserve(field.cells());
+    for (std::size_t i = 0; i < field.cells(); ++i) {
+        if (!is_ground(field.height_m[i])) continue;
+        // Bits of floats that count as floats do; + 0 for -0, which equals 0.
+        const auto bits = std::bit_cast<std::uint32_t>(field.height_m[i] + 0.0f);
+        const std::uint32_t rising = (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+        keyed.push_back({std::uint64_t{rising} << 1 | (leads_out[i] != 0 ? 0u : 1u), static_cast<std::uint32_t>(i)});
     }
+    // By eleven of the 33 bits at a time, the lowest first; each pass keeps the order of equals.
+    constexpr int kBits = 11;
+    std::vector<Keyed> sorted(keyed.size());
+    for (int pass = 0; pass < 3; ++pass) {
+        std::array<std::size_t, 1u << kBits> place{};
+        const auto digit = [&](const Keyed& k) {
+            return static_cast<std::size_t>(k.key >> (pass * kBits)) & ((1u << kBits) - 1u);
+        };
+        for (const Keyed& k : keyed) ++place[digit(k)];
+        std::size_t begin = 0;
+        for (std::size_t& p : place) begin += std::exchange(p, begin);
+        for (const Keyed& k : keyed) sorted[place[digit(k)]++] = k;
+        keyed.swap(sorted);
+    }
+    std::vector<std::uint32_t> cells(keyed.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = keyed[i].cell;
+    return cells;
+}
+
+// Cells that a labelled neighbour has reached, first come first served among those of one height. A cell is reached
+// when all lower ones are settled, so it waits at its own height, and who reached it first gives its label.
+class Reached {
+public:
+    explicit Reached(std::size_t cells) : label_(cells, kNoLabel), next_(cells) {}
+    bool holds(std::size_t cell) const { return label_[cell] != kNoLabel; }
+    std::uint32_t label(std::size_t cell) const { return label_[cell]; }
+
+    /// A list of cells of one height; empty: both ends kNoLabel.
+    struct List {
+        std::uint32_t first = kNoLabel, last = kNoLabel;
+    };
+    void add(List& list, std::size_t cell, std::uint32_t label)
+    {
+        const auto number = static_cast<std::uint32_t>(cell);
+        label_[cell] = label;
+        next_[cell] = kNoLabel;
+        if (list.first == kNoLabel) list.first = number;
+        else next_[list.last] = number;
+        list.last = number;
+    }
+    std::size_t take(List& list)
+    {
+        const std::uint32_t cell = list.first;
+        list.first = next_[cell];
+        return cell;
+    }
+
+private:
+    std::vector<std::uint32_t> label_, next_;
 };
 
 // Floods from below: a cell that no labelled neighbour has reached when its height comes up is a
@@ -91,16 +148,17 @@ Labels label_cells(const HeightField& field, std::span<const std::size_t> drains
     Labels out;
     out.of.assign(field.cells(), kNoLabel);
     const std::vector<std::uint8_t> leads_out = outlets_of(field, drains);
-    std::vector<std::uint32_t> rising;
-    for (std::size_t i = 0; i < field.cells(); ++i)
-        if (is_ground(field.height_m[i])) rising.push_back(static_cast<std::uint32_t>(i));
-    std::stable_sort(rising.begin(), rising.end(), [&](std::uint32_t a, std::uint32_t b) {
-        if (field.height_m[a] != field.height_m[b]) return field.height_m[a] < field.height_m[b];
-        return leads_out[a] > leads_out[b];  // a flat that touches an outlet is no pit
-    });
-    std::priority_queue<Reached> reached;
+    const std::vector<std::uint32_t> rising = cells_by_height(field, leads_out);
+    // Of each cell the list of its height.
+    std::vector<std::uint32_t> level(field.cells(), 0);
+    std::uint32_t levels = 0;
+    for (std::size_t i = 0; i < rising.size(); ++i) {
+        if (i > 0 && field.height_m[rising[i]] != field.height_m[rising[i - 1]]) ++levels;
+        level[rising[i]] = levels;
+    }
+    std::vector<Reached::List> lists(std::size_t{levels} + 1);
+    Reached reached(field.cells());
     std::unordered_map<std::uint64_t, Saddle> saddle_of;
-    std::uint64_t order = 0;
     const auto settle = [&](std::size_t cell, std::uint32_t label) {
         out.of[cell] = label;
         const float height = field.height_m[cell];
@@ -110,7 +168,7 @@ Labels label_cells(const HeightField& field, std::span<const std::size_t> drains
             if (!is_ground(field.height_m[next])) continue;
             const std::uint32_t other = out.of[next];
             if (other == kNoLabel) {
-                reached.push({std::max(height, field.height_m[next]), order++, next, label});
+                if (!reached.holds(next)) reached.add(lists[level[next]], next, label);
             } else if (other != label) {
                 const std::uint32_t a = std::min(label, other), b = std::max(label, other);
                 const Saddle here{std::max(height, field.height_m[next]), std::max(cell, next), a,
@@ -121,26 +179,23 @@ Labels label_cells(const HeightField& field, std::span<const std::size_t> drains
             }
         }
     };
-    std::size_t next = 0;
-    while (next < rising.size() || !reached.empty()) {
-        while (next < rising.size() && out.of[rising[next]] != kNoLabel) ++next;
-        // Outlets come first of all at their height: flat ground between one and a pit is shared.
-        const bool from_below =
-            !reached.empty() &&
-            (next == rising.size() || reached.top().height_m < field.height_m[rising[next]] ||
-             (reached.top().height_m == field.height_m[rising[next]] && !leads_out[rising[next]]));
-        if (from_below) {
-            const Reached top = reached.top();
-            reached.pop();
-            if (out.of[top.cell] != kNoLabel) continue;
-            settle(top.cell, leads_out[top.cell] ? kOutside : top.label);
-        } else if (next < rising.size()) {
-            const std::size_t cell = rising[next];
-            if (leads_out[cell]) {
-                settle(cell, kOutside);
+    for (std::size_t next = 0; next < rising.size();) {
+        const std::uint32_t now = level[rising[next]];
+        Reached::List& waiting = lists[now];
+        for (;;) {
+            while (next < rising.size() && out.of[rising[next]] != kNoLabel) ++next;
+            const bool any = next < rising.size() && level[rising[next]] == now;
+            // Outlets come first of all at their height: flat ground between one and a pit is shared.
+            if (any && leads_out[rising[next]]) {
+                settle(rising[next], kOutside);
+            } else if (waiting.first != kNoLabel) {
+                const std::size_t cell = reached.take(waiting);
+                if (out.of[cell] == kNoLabel) settle(cell, reached.label(cell));
+            } else if (any) {
+                out.pit_m.push_back(field.height_m[rising[next]]);
+                settle(rising[next], ++out.pits);
             } else {
-                out.pit_m.push_back(field.height_m[cell]);
-                settle(cell, ++out.pits);
+                break;
             }
         }
     }

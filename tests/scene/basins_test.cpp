@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <queue>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "scene/basins/basin_map.h"
@@ -227,6 +229,73 @@ TEST(Basins, EvaporationClosesTheBooks)
     }
     EXPECT_GT(lost, 0.0);
     EXPECT_GT(out, 0.0);
+}
+
+// As the authors have it: one queue of all that is reached, by height, first come first served. Flats, drains and voids.
+TEST(Basins, CellsGoToThePitsThatOneQueueGivesThemTo)
+{
+    struct Waits {
+        float height_m;
+        std::uint64_t order;
+        std::size_t cell;
+        std::uint32_t label;
+        bool operator<(const Waits& o) const { return std::tie(height_m, order) > std::tie(o.height_m, o.order); }
+    };
+    for (unsigned seed = 0; seed < 12; ++seed) {
+        HeightField field = rough_field(31, 23, seed);
+        for (float& h : field.height_m) h = h > 15.0f ? kSolid_m : h > 14.5f ? kNoGround_m : h == 1.0f ? -0.0f : h - 3.0f;
+        const std::vector<std::size_t> drains{77, 301};
+        const auto around = [&](std::size_t cell) {
+            std::vector<std::size_t> cells;
+            const auto x = static_cast<int>(cell % 31), z = static_cast<int>(cell / 31);
+            for (int nz = z - 1; nz <= z + 1; ++nz)
+                for (int nx = x - 1; nx <= x + 1; ++nx)
+                    if (nx >= 0 && nz >= 0 && nx < 31 && nz < 23 && (nx != x || nz != z))
+                        cells.push_back(static_cast<std::size_t>(nz * 31 + nx));
+            return cells;
+        };
+        const auto ground = [&](std::size_t cell) { return std::isfinite(field.height_m[cell]); };
+        std::vector<std::size_t> rising;
+        std::vector<bool> out(field.cells(), false);
+        for (std::size_t cell = 0; cell < field.cells(); ++cell) {
+            if (!ground(cell)) continue;
+            rising.push_back(cell);
+            const auto cells = around(cell);
+            out[cell] = cells.size() < 8 || std::any_of(cells.begin(), cells.end(), [&](std::size_t c) {
+                            return std::isnan(field.height_m[c]);
+                        });
+        }
+        for (const std::size_t drain : drains) out[drain] = out[drain] || ground(drain);
+        std::stable_sort(rising.begin(), rising.end(), [&](std::size_t a, std::size_t b) {
+            return field.height_m[a] != field.height_m[b] ? field.height_m[a] < field.height_m[b] : out[a] > out[b];
+        });
+        std::vector<std::uint32_t> label(field.cells(), kNoLabel);
+        std::uint32_t pits = 0;
+        std::uint64_t order = 0;
+        std::priority_queue<Waits> waits;
+        const auto settle = [&](std::size_t cell, std::uint32_t to) {
+            label[cell] = out[cell] ? kOutside : to;
+            for (const std::size_t next : around(cell))
+                if (ground(next) && label[next] == kNoLabel)
+                    waits.push({std::max(field.height_m[cell], field.height_m[next]), order++, next, label[cell]});
+        };
+        for (std::size_t next = 0; next < rising.size() || !waits.empty();) {
+            while (next < rising.size() && label[rising[next]] != kNoLabel) ++next;
+            const bool above = next < rising.size() && !waits.empty() && waits.top().height_m == field.height_m[rising[next]];
+            if (!waits.empty() && (next == rising.size() || waits.top().height_m < field.height_m[rising[next]] ||
+                                   (above && !out[rising[next]]))) {
+                const Waits top = waits.top();
+                waits.pop();
+                if (label[top.cell] == kNoLabel) settle(top.cell, top.label);
+            } else if (next < rising.size()) {
+                settle(rising[next], out[rising[next]] ? kOutside : ++pits);
+            }
+        }
+        const Basins found = find_basins(field, drains);
+        EXPECT_EQ(found.pits, pits) << seed;
+        EXPECT_GT(pits, 20u) << seed;
+        EXPECT_EQ(found.label, label) << seed;
+    }
 }
 
 TEST(Basins, ADrainEmptiesItsHollow)

@@ -56,6 +56,33 @@ TEST(NearFormFactor, OfASquareAboveIsTheClosedForm)
         shared::near_form_factor({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}, {0, 0, 1})));
 }
 
+// The other side of a leaf looks at every point of the leaf from no distance at all: half of the points of a leaf anywhere lie
+// in front of it by rounding, and were as dark as it.
+TEST(NearFormFactor, OfTheBackOfItsOwnSheetAPointSeesNothing)
+{
+    int before_by_rounding = 0;
+    for (std::uint64_t i = 0; i < 400; ++i) {
+        const auto number = [&](std::uint64_t k) { return unit_float(mixed(i, 50 + k)); };
+        const glm::vec3 n = cosine_direction({0, 1, 0}, number(0), number(1));
+        const Tangents frame = tangents_of(n);
+        const glm::vec3 at(20.0f * number(2) - 10.0f, 3.0f * number(3), 20.0f * number(4) - 10.0f);
+        const glm::vec3 u = frame.t * (0.02f + 0.2f * number(5)), v = frame.b * (0.02f + 0.2f * number(6));
+        // In turn as seen from below.
+        const std::array<glm::vec3, 4> corners{at, at + v, at + v + u, at + u};
+        const glm::vec3 x = at + u * number(7) + v * number(8);
+        std::array<glm::vec3, 4> c;
+        for (std::size_t k = 0; k < 4; ++k) c[k] = corners[k] - x;
+        EXPECT_EQ(shared::near_form_factor(c[0], c[1], c[2], c[3], n), 0.0f) << i;
+        before_by_rounding += glm::dot(glm::cross(c[2] - c[0], c[3] - c[1]), c[0]) < 0.0f ? 1 : 0;
+        // Another leaf over it, at a fiftieth of its size, fills nearly all that its middle sees, and from its other side nothing.
+        const float high = 0.02f * std::sqrt(glm::dot(u + v, u + v));
+        for (std::size_t k = 0; k < 4; ++k) c[k] = corners[k] - (at + 0.5f * (u + v)) + n * high;
+        EXPECT_GT(shared::near_form_factor(c[0], c[1], c[2], c[3], n), 0.7f) << i;
+        EXPECT_EQ(shared::near_form_factor(c[3], c[2], c[1], c[0], n), 0.0f) << i;
+    }
+    EXPECT_GT(before_by_rounding, 100);
+}
+
 // What a point of this normal sees of a convex polygon's front, by rays over its hemisphere.
 double seen_by_rays(const std::array<glm::vec3, 4>& c, glm::vec3 n, int rays)
 {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "formulas/light/near_light.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/patch_file.h"
 #include "tests/scene/patch_scenes.h"
@@ -125,6 +126,43 @@ TEST(Radiosity, SourcesAddUp)
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(lboth.irradiance[i][c], la.irradiance[i][c] + lb.irradiance[i][c], 2e-5f);
     }
+}
+
+// A sheet of a tenth of a square metre, lit, 3 m over a wide floor: a cell of that meets it with one ray in a hundred or none.
+TEST(Radiosity, WhatASmallSheetSendsToWideCellsIsKnownByItsOwnRays)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-12, 0, -12}, {0, 0, 24}, {24, 0, 0});
+    const glm::vec3 corner(-0.15f, 3.0f, -0.15f), u(0.3f, 0, 0), v(0, 0, 0.3f);
+    add_face(scene, corner, u, v);
+    const Cut cut(scene, 128, 0.35f);
+    const Patches& p = cut.patches;
+    Lights lights(p, glm::vec3(0.5f));
+    for (std::uint32_t i = 0; i < p.count; ++i)
+        if (p.normal[i].y < -0.5f) lights.direct[i] = glm::vec3(2.0f);
+    const PatchIrradiance lit = relight(p, lights.input(0));
+    double square = 0.0, square_by_rows = 0.0, sum = 0.0, all = 0.0, wanted_all = 0.0;
+    int wide = 0;
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        if (p.normal[i].y < 0.5f || level_of(p.key[i]) < 2 || glm::length(p.position_m[i]) > 6.0f) continue;
+        const glm::vec3 x = p.position_m[i];
+        const float wanted = shared::near_form_factor(corner - x, corner + u - x, corner + u + v - x, corner + v - x, {0, 1, 0});
+        int met = 0;
+        for (int r = 0; r < p.rays; ++r) {
+            const std::uint32_t j = p.row(i)[r];
+            met += j < p.count && p.normal[j].y < -0.5f ? 1 : 0;
+        }
+        square += std::pow(static_cast<double>(lit.irradiance[i].x - wanted), 2.0);
+        square_by_rows += std::pow(static_cast<double>(static_cast<float>(met) / static_cast<float>(p.rays) - wanted), 2.0);
+        sum += static_cast<double>(wanted);
+        all += static_cast<double>(lit.irradiance[i].x * p.area_m2[i]);
+        wanted_all += static_cast<double>(wanted * p.area_m2[i]);
+        ++wide;
+    }
+    ASSERT_GT(wide, 30);
+    EXPECT_LT(square, 0.3 * square_by_rows);
+    EXPECT_LT(std::sqrt(square / wide), 0.8 * sum / wide);
+    EXPECT_NEAR(all, wanted_all, 0.1 * wanted_all);
 }
 
 TEST(Radiosity, AlbedoOfOneStaysFinite)
