@@ -97,8 +97,11 @@ Rings rings_on(SurfaceInput at, StandingWater water, float open, float fade)
     const int level = quad_level(frame.ripple_bits, shorter, shorter);
     const vec2 place = at.position.xz * tiling;
     const vec2 ring = textureLod(ripple_map, place, float(level)).xy;
-    const int side = 1 << (frame.ripple_bits - level);
-    const vec2 square = texelFetch(ripple_map, ivec2(fract(place) * float(side)) & (side - 1), level).zw;
+    // Roughness is of the longer side, of which each sample has its part: by the shorter one it would glitter.
+    const int parts = ((floatBitsToInt(frame.samples) >> 23) - 127) >> 1;
+    const int wide = max(quad_level(frame.ripple_bits, dx, dy) - parts, level);
+    const int side = 1 << (frame.ripple_bits - wide);
+    const vec2 square = texelFetch(ripple_map, ivec2(fract(place) * float(side)) & (side - 1), wide).zw;
     const float share = water.deep * saturate(at.normal.y) * saturate(open * 2.0);
     Rings rings;
     rings.normal = mix(vec3(0.0, 0.0, 1.0), unpack_normal(ring, frame.look.ripple_strength), share);
