@@ -5,6 +5,7 @@
 
 #include "formulas/codec/half.h"
 #include "formulas/codec/octahedral.h"
+#include "formulas/codec/rough_normal.h"
 #include "formulas/codec/shared_exponent.h"
 #include "formulas/color/tone_map.h"
 #include "formulas/color/white_balance.h"
@@ -72,7 +73,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 82;
+SHARED_CONST int kProbeKinds = 83;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)

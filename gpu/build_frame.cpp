@@ -239,6 +239,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const Sun& sun, c
     }
     if (r.scene->two_sets()) c.flags |= FRAME_TWO_SETS;
     if (!r.environment) c.flags |= FRAME_LAND;
+    if (frame.weather.rain > 0.0f) c.flags |= FRAME_RINGS;
     c.light_tiles = {r.targets->tiles_x(), r.targets->tiles_y()};
     c.coarse_tiles = {r.targets->coarse_x(), r.targets->coarse_y()};
     c.light_count = r.lights->count;

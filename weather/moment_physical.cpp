@@ -147,6 +147,11 @@ struct PhysicalMoments::Impl {
         const double hoar =
             std::clamp(before.total_sublimation - c.total_sublimation, 0.0, c.film_ice);
         m.frost = narrow(1.0 - std::exp(-hoar / kHoarScale_kg_m2));
+        // The rest of it is glaze: clear ice that shows as a film of water does.
+        const double glaze_mm = (c.film_ice - hoar) * (1000.0 / kIceDensity);
+        const ArtistOutputs glazed = outputs({.water_to_snow = 0.0, .wetness = wetness_of_film(mapping, glaze_mm)}, {}, 0.0, 0.0);
+        m.film_albedo = std::max(m.film_albedo, narrow(glazed.film_albedo));
+        m.film_smoothness = std::max(m.film_smoothness, narrow(glazed.film_smoothness));
     }
 };
 

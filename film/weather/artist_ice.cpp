@@ -52,6 +52,10 @@ shared::WeatherMoment with_ice(shared::WeatherMoment moment, const ArtistIce& ic
     moment.flood_puddles = std::min(moment.flood_puddles + narrow(ice.puddles), 1.0f);
     moment.snow_amount =
         std::max(moment.snow_amount - narrow(ice.not_snow) * moment.water_to_snow, 0.0f);
+    // As a film of water shows. Where patches are they say where it lies.
+    const weather::ArtistOutputs glazed = weather::outputs({.water_to_snow = 0.0, .wetness = ice.film}, {}, 0.0, 0.0);
+    moment.film_albedo = std::max(moment.film_albedo, narrow(glazed.film_albedo));
+    moment.film_smoothness = std::max(moment.film_smoothness, narrow(glazed.film_smoothness));
     return moment;
 }
 

@@ -16,7 +16,7 @@ struct ArtistIce {
     double film = 0.0;                   ///< clear ice of its wetness and of rain that fell in the cold, 0..1 as that
 };
 
-/// A moment of the model with that ice in its cracks and puddles, and less snow.
+/// A moment of the model with that ice in its cracks and puddles, its film where clear ice is that, and less snow.
 shared::WeatherMoment with_ice(shared::WeatherMoment moment, const ArtistIce& ice);
 
 /// The ice of a script over time: solved once, in steps of a sixteenth of a second and more for films

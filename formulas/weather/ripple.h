@@ -51,6 +51,39 @@ SHARED_FN vec2 ripple_slope(vec4 source, float clock, float weight)
     return vec2(2.0f * source.y - 1.0f, 2.0f * source.z - 1.0f) * height;
 }
 
+// Rings of a texel of the map that is drawn: its normal's x and y, and the mean of x^2 + y^2 within it.
+struct RingSlopes {
+    vec2 lean;
+    float square;
+};
+
+// What four texels are together, as in LEAN mapping (Olano and Baker 2010). The first level has no square but that of
+// its normals: close up all of them are seen.
+SHARED_FN RingSlopes rings_of_four(RingSlopes a, RingSlopes b, RingSlopes c, RingSlopes d)
+{
+    RingSlopes all;
+    all.lean = 0.25f * (a.lean + b.lean + c.lean + d.lean);
+    all.square = 0.25f * (max(a.square, dot(a.lean, a.lean)) + max(b.square, dot(b.lean, b.lean)) + max(c.square, dot(c.lean, c.lean)) +
+                          max(d.square, dot(d.lean, d.lean)));
+    return all;
+}
+
+// In twice eight bits. They are read from one texel: a CPU mixes eight bits as eight bits.
+SHARED_FN vec2 rings_square_code(float square)
+{
+    const float codes = 255.0f * clamp(square, 0.0f, 1.0f);
+    return vec2(floor(codes) / 255.0f, codes - floor(codes));
+}
+SHARED_FN float rings_square_of(vec2 code) { return code.x + code.y / 255.0f; }
+
+// Variance of the slopes of water that its normal does not show, of both axes together.
+//   square, lean  of the map, both with strength and share of the rings in them
+//   fade          how far rings are drawn at all
+SHARED_FN float rings_unseen(float square, vec2 lean, float fade)
+{
+    return max(square - fade * fade * dot(lean, lean), 0.0f);
+}
+
 struct FlowPhases {
     float first;   // 0..1
     float second;  // half a period apart

@@ -72,9 +72,9 @@ float fog_per_m(const Frame& frame)
 float lens_wetness(const Frame& frame)
 {
     const shared::WeatherMoment& w = frame.weather;
-    // A lens that was just rained on dries as the ground does.
+    // A lens that was just rained on dries as the ground does; ice on the ground wets none.
     return frame.settings.wet_lens *
-           std::clamp(2.0f * w.rain * (1.0f - w.water_to_snow) + 0.5f * w.film_albedo, 0.0f, 1.0f);
+           std::clamp((2.0f * w.rain + 0.5f * w.film_albedo) * (1.0f - w.water_to_snow), 0.0f, 1.0f);
 }
 
 bool is_white_balanced(const FrameSettings& s)

@@ -140,5 +140,6 @@ SHARED_END
 #define FRAME_WHITE_BALANCE 512u
 #define FRAME_LAND 2048u      // the sky is computed, with land below its horizon
 #define FRAME_TWO_SETS 1024u  // the G-buffer keeps shares of two sets of textures
+#define FRAME_RINGS 4096u     // it rains: normals of covers have the roughness of rings that they do not show (rough_normal.h)
 
 #endif

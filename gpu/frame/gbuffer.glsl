@@ -3,6 +3,7 @@
 #define PETRICHOR_GBUFFER_GLSL
 
 #include "formulas/codec/octahedral.h"
+#include "formulas/codec/rough_normal.h"
 #include "formulas/weather/deep_water.h"
 #include "gpu/frame/baked_shadow.glsl"
 #include "gpu/frame/frame_io.h"
@@ -21,6 +22,7 @@ struct GBufferTexel {
     uint model;    // lighting model, 0..255; behind the models: a model and layers
     vec4 weather;  // film, water, snow, frost
     float deeper_m;  // of standing water, more than where it closes
+    float cover_roughness;  // perceptual, of slopes that cover_normal does not show; kept with FRAME_RINGS
     uint material;          // its number in the scene, 0..65535; 0 where no weather is kept
     float snow_smoothness;  // of the snow here
     float first_share;      // of the first of two sets of textures; kept with FRAME_TWO_SETS
@@ -92,6 +94,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel, uint flags)
     code.color = vec4(sqrt(clamp(texel.base_color, vec3(0.0), vec3(1.0))), texel.occlusion);
     code.normals =
         vec4(octahedral_encode(texel.base_normal), octahedral_encode(texel.cover_normal));
+    if ((flags & FRAME_RINGS) != 0u) code.normals.zw = rough_normal_code(code.normals.zw, texel.cover_roughness);
     code.material = vec4(texel.roughness, texel.metallic, texel.porosity,
                          float(texel.model) / 255.0);
     code.payload = vec4(sqrt(clamp(texel.f0, vec3(0.0), vec3(1.0))), texel.tangent);  // 0.04 is exact
@@ -111,6 +114,7 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint kept, uint flags)
     texel.occlusion = code.color.a;
     texel.base_normal = octahedral_decode(code.normals.xy);
     texel.cover_normal = octahedral_decode(code.normals.zw);
+    texel.cover_roughness = (flags & FRAME_RINGS) != 0u ? roughness_of_normal(code.normals.zw) : 0.0;
     texel.roughness = code.material.x;
     texel.metallic = code.material.y;
     texel.porosity = code.material.z;

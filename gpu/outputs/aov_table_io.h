@@ -35,6 +35,8 @@
     ROW(frost, 1, "Y", "1", HALF, "cover of hoar frost, 0..1", p.g.weather.w, 0.0)              \
     ROW(cover_normal, 3, "XYZ", "1", HALF, "world normal of the water or snow surface, unit",   \
         p.g.cover_normal, 0.0)                                                                  \
+    ROW(ring_roughness, 1, "Y", "1", HALF,                                                      \
+        "perceptual roughness of standing water by rings smaller than a pixel, 0..1", p.g.cover_roughness, 0.0) \
     ROW(porosity, 1, "Y", "1", HALF, "porosity: how far water darkens the dry surface, 0..1",   \
         p.g.porosity, 0.0)                                                                      \
     ROW(specular, 3, "RGB", "1", HALF, "dry reflectance at normal incidence, metals included",  \

@@ -68,6 +68,22 @@ TEST(ArtistIce, WhatIsWetAndWhatRainsInTheColdIsGlazed)
     EXPECT_GT(rained.glaze_mm(15.0), 1.2 * wet.glaze_mm(15.0));
 }
 
+// Where no patch says more, the frame's film is that ice.
+TEST(ArtistIce, GlazeIsTheFilmOfItsMoment)
+{
+    const ArtistIceTimeline ice(frost_and_thaw());
+    shared::WeatherMoment frozen;
+    frozen.water_to_snow = 1.0f;
+    const shared::WeatherMoment glazed = with_ice(frozen, ice.at(15.0));
+    EXPECT_NEAR(glazed.film_albedo, 0.85 * ice.at(15.0).film, 1e-6);
+    EXPECT_NEAR(glazed.film_smoothness, 0.5 * ice.at(15.0).film, 1e-6);
+    EXPECT_GT(glazed.film_smoothness, 0.1f);
+    EXPECT_EQ(with_ice(frozen, ice.at(2.5)).film_smoothness, 0.0f) << "nothing has frozen yet";
+    // Water over ice is as thick as it is.
+    frozen.film_smoothness = 0.49f;
+    EXPECT_EQ(with_ice(frozen, ice.at(15.0)).film_smoothness, 0.49f);
+}
+
 TEST(ArtistIce, SnowThatFallsStays)
 {
     const ArtistTimeline weather = frost_and_thaw(0.2);

@@ -41,7 +41,7 @@ protected:
     struct Picture {
         Seen leaf, wall;
     };
-    static Picture picture(const std::string& keys)
+    static Picture picture(const std::string& keys, bool patches = true)
     {
         const Workplace place("glaze");
         const auto glb = yard().glb();
@@ -50,7 +50,7 @@ protected:
         Scenario scenario = parse_scenario("[scene]\nfile = \"yard.glb\"\nground = \"none\"\n[weather]\nkeys = [" + keys +
                                                "]\n[camera]\nposition_m = [0, 1.2, 3]\nlook_at_m = [0, 0.8, 0]\nexposure = 1e-5\n"
                                                "[sun]\nelevation_degrees = 45\nazimuth_degrees = 180\n"
-                                               "[ground]\npatches = true\n"
+                                               "[ground]\npatches = " + (patches ? "true" : "false") + "\n"
                                                "[output]\nframes = 1\nstart_s = 40\nwidth = 160\nheight = 90\nsamples = 1\n"
                                                "aovs = [\"film\", \"position\"]\n",
                                            "s.toml");
@@ -89,13 +89,23 @@ protected:
     }
 };
 
+const std::string kDryFrost = "{ time_s = 0, temperature_c = 2, rainfall = 0 }, { time_s = 30.5, temperature_c = 2, rainfall = 0 }, "
+                              "{ time_s = 33, temperature_c = -8, rainfall = 0 }, { time_s = 60, temperature_c = -8 }";
+const std::string kRainThatFroze = "{ time_s = 0, temperature_c = 2, rainfall = 0.5 }, { time_s = 30.5, temperature_c = 2, rainfall = 0.5 }, "
+                                   "{ time_s = 31, temperature_c = 2, rainfall = 0 }, { time_s = 33, temperature_c = -8, rainfall = 0 }, "
+                                   "{ time_s = 60, temperature_c = -8 }";
+
+// The frame has one state then, and what falls finds walls and leaves by their slopes.
+TEST_F(Glaze, LiesThereWithoutPatchesToo)
+{
+    const Picture dry = picture(kDryFrost, false), frozen = picture(kRainThatFroze, false);
+    EXPECT_LT(frozen.leaf.light, 0.9f * dry.leaf.light);
+    EXPECT_LT(frozen.wall.light, 0.95f * dry.wall.light);
+}
+
 TEST_F(Glaze, LiesOnLeavesAndWallsAfterRainThatFroze)
 {
-    const Picture dry = picture("{ time_s = 0, temperature_c = 2, rainfall = 0 }, { time_s = 30.5, temperature_c = 2, rainfall = 0 }, "
-                                "{ time_s = 33, temperature_c = -8, rainfall = 0 }, { time_s = 60, temperature_c = -8 }");
-    const Picture frozen = picture("{ time_s = 0, temperature_c = 2, rainfall = 0.5 }, { time_s = 30.5, temperature_c = 2, rainfall = 0.5 }, "
-                                   "{ time_s = 31, temperature_c = 2, rainfall = 0 }, { time_s = 33, temperature_c = -8, rainfall = 0 }, "
-                                   "{ time_s = 60, temperature_c = -8 }");
+    const Picture dry = picture(kDryFrost), frozen = picture(kRainThatFroze);
     EXPECT_LT(dry.leaf.film, 0.01f);
     EXPECT_LT(dry.wall.film, 0.01f);
     EXPECT_GT(frozen.leaf.film, 0.3f);

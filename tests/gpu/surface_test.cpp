@@ -288,6 +288,53 @@ TEST_F(Surface, RingsAreSeenAFewMetresAway)
     EXPECT_GT(rings, 0.009);
 }
 
+// Of rings what a pixel shows and what it is rough by are one sum, wherever the eye is: those that are too small to be seen make the water rough.
+TEST_F(Surface, RingsTooSmallToSeeAreRoughness)
+{
+    Frame frame = from_above({"cover_normal", "ring_roughness"});
+    flood(frame);
+    frame.settings.time_s = 0.4;
+    Material m = plain_material(glm::vec3(0.5f));
+    m.weather.wetness = scene::Wetness::Ripples;
+    struct Seen {
+        double leans = 0.0, rough = 0.0;
+    };
+    const auto seen = [&](float width_m, float rain, Material of) {
+        frame.weather.rain = rain;
+        frame.camera.orthographic_height_m = width_m;
+        const RenderResult r = shot(scene_of({quad({-30, 0, 30}, {60, 0, 0}, {0, 0, -60})}, {of}), frame);
+        Seen sum;
+        for (int i = 0; i < kSize * kSize; ++i) {
+            const float x = aov(r, "cover_normal", i % kSize, i / kSize, 0), z = aov(r, "cover_normal", i % kSize, i / kSize, 2);
+            sum.leans += static_cast<double>(x * x + z * z) / (kSize * kSize);
+            sum.rough += std::pow(static_cast<double>(aov(r, "ring_roughness", i % kSize, i / kSize)), 4.0) / (kSize * kSize);
+        }
+        return sum;
+    };
+    // A repeat of the map, and ever more of them: pixels of 2.6 mm to a metre.
+    const Seen near = seen(1.25f * 0.1f, 1.0f, m), once = seen(1.25f, 1.0f, m);
+    EXPECT_LT(near.rough, 0.05 * near.leans) << "close up they are seen";
+    const double all = once.leans + once.rough;
+    ASSERT_GT(all, 0.0005);
+    double rough = 0.0;
+    for (const float repeats : {1.0f, 2.0f, 5.0f, 12.0f, 40.0f}) {
+        const Seen here = seen(1.25f * repeats, 1.0f, m);
+        RecordProperty("at_" + std::to_string(static_cast<int>(repeats)), std::to_string(here.leans) + " " + std::to_string(here.rough));
+        EXPECT_NEAR(here.leans + here.rough, all, 0.12 * all) << repeats;
+        EXPECT_GE(here.rough, 0.9 * rough) << repeats;
+        rough = here.rough;
+    }
+    RecordProperty("all", std::to_string(all));
+    RecordProperty("rough", std::to_string(rough));
+    EXPECT_GT(rough, 0.85 * all) << "from afar nothing of them is seen";
+    // The harder the rain; none without it, and none of what has no rings.
+    EXPECT_LT(seen(15.0f, 0.2f, m).rough, 0.5 * seen(15.0f, 0.6f, m).rough);
+    EXPECT_LT(seen(15.0f, 0.6f, m).rough, seen(15.0f, 1.0f, m).rough);
+    EXPECT_EQ(seen(15.0f, 0.0f, m).rough, 0.0);
+    m.weather.wetness = scene::Wetness::Simple;
+    EXPECT_EQ(seen(15.0f, 1.0f, m).rough, 0.0);
+}
+
 // Lux's packed map: the puddle mask in red, the height in green.
 TEST_F(Surface, OneMapHoldsMaskAndHeight)
 {

@@ -6,6 +6,7 @@
 #include "tests/weather/winters.h"
 #include "weather/models/physical/mapping.h"
 #include "weather/models/physical/physical.h"
+#include "weather/moment.h"
 #include "weather/physics/evaporation.h"
 
 namespace petrichor::weather {
@@ -170,6 +171,24 @@ TEST(Ice, FrostDewAndFreezing)
     EXPECT_GT(glaze.film_ice + glaze.crack_ice, 0.3);
     EXPECT_LE(glaze.surface_temp_c, 1e-9);
     EXPECT_GT(glaze.frozen_fraction, 0.1);
+}
+
+// Clear ice shows as a film does, hoar does not.
+TEST(Ice, GlazeIsTheFilmOfItsMoment)
+{
+    PhysicalParams p;
+    ForcingTable cold = steady(268, 98, 0.5, 0, 0, 12);
+    for (double& lw : cold[Field::Longwave]) lw = 180;
+    const auto frosty = PhysicalMoments(cold, p, {}).at(12 * kHourUs).values;
+    EXPECT_GT(frosty.frost, 0.1f);
+    EXPECT_LT(frosty.film_smoothness, 0.02f);
+    p.deep_temp_k = 262;
+    p.phase.law = PhaseLaw::Threshold;
+    p.phase.threshold_k = 260;
+    const auto glazed = PhysicalMoments(steady(270.5, 95, 4, 0, 1.0 / 3600, 6), p, {}).at(5 * kHourUs).values;
+    EXPECT_GT(glazed.ice_kg_m2, 0.1f);
+    EXPECT_GT(glazed.film_albedo, 0.2f);
+    EXPECT_GT(glazed.film_smoothness, 0.1f);
 }
 
 TEST(Snow, FallsAndMeltsIntoTheStores)

@@ -47,8 +47,11 @@ void main()
         normals.zw = normals.xy;
     } else if (weather.a > 0.0) {
         const vec4 cover = texelFetch(laid_cover, texel, 0);
+        // Water of a decal has the rings of what it lies on.
+        const float roughness = roughness_of_normal(normals.zw);
         normals.zw = octahedral_encode(
             normalize(octahedral_decode(normals.zw) * (1.0 - cover.a) + cover.xyz));
+        if ((frame.flags & FRAME_RINGS) != 0u) normals.zw = rough_normal_code(normals.zw, roughness);
     }
     imageStore(normals_map, texel, normals);
     vec4 dry = imageLoad(material_map, texel);

@@ -18,6 +18,7 @@
 #include "formulas/light/sun_cookie.h"
 #include "formulas/light/weak_shadow.h"
 #include "formulas/weather/ice_pattern.h"
+#include "formulas/weather/lost_slopes.h"
 #include "formulas/weather/run_off.h"
 #include "formulas/weather/soaked_walls.h"
 #include "formulas/light/fog.h"
@@ -235,6 +236,9 @@ void main()
                 }
             }
             closed = closed_water(state);
+            // Lux knows the rings that are seen alone.
+            const float unseen = GAMMA == 0u ? closed * g.cover_roughness * g.cover_roughness : 0.0;
+            m.smoothness = 1.0 - with_lost_slopes(1.0 - m.smoothness, unseen * unseen);
             // Cracks and bubbles, where any of a group is ice.
             const float ice = ICE != 0u ? closed * frame.weather.water_to_snow : 0.0;
             if (ice > 0.0)

@@ -19,6 +19,7 @@ struct Cover {
     vec3 normal;      // of the water or snow
     vec2 refraction;  // shift of the texture coordinates below the water
     float deeper_m;   // of the water, more than where it closes
+    float lost;       // variance of the slopes of water that its normal does not show
     float slides;     // 1: the slope of the bumps is still to take its share of the film (shed_film)
 };
 
@@ -43,6 +44,7 @@ Cover no_cover(SurfaceInput at)
     c.normal = at.normal;
     c.refraction = vec2(0.0);
     c.deeper_m = 0.0;
+    c.lost = 0.0;
     c.slides = 0.0;
     return c;
 }
@@ -140,19 +142,18 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     const float left_m = frame.look.detail_distance_m - length(at.position - frame.camera_m);
     const float near = saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3));
     const float fade = near * near;
-    vec3 ripple = vec3(0.0, 0.0, 1.0);
+    Rings ripple = Rings(vec3(0.0, 0.0, 1.0), 0.0);
     Wave flow;
     flow.lean = vec3(0.0);
     flow.up = 1.0;
-    if ((WATER & WATER_RIPPLES) != 0u && !is_steep() && frame.weather.rain * open > 0.0 && water.deep > 0.0 &&
-        fade > 0.001) {
-        ripple = ripple_normal(at, water, open);
+    if ((WATER & WATER_RIPPLES) != 0u && !is_steep() && frame.weather.rain * open > 0.0 && water.deep > 0.0) {
+        ripple = rings_on(at, water, open, fade);
     }
     if ((WATER & WATER_FLOWS) != 0u && max(water.anywhere, water.runs) > 0.0 && fade > 0.001) {
         flow = flow_wave(at, water, here.still);
     }
-    const vec3 rings = vec3(ripple.x, 0.0, ripple.y);
-    const vec4 bent = normalize(vec4(rings + flow.lean, ripple.z * flow.up));
+    const vec3 rings = vec3(ripple.normal.x, 0.0, ripple.normal.y);
+    const vec4 bent = normalize(vec4(rings + flow.lean, ripple.normal.z * flow.up));
     const vec3 shift = rings * (frame.look.ripple_refraction * material.ripple_refraction) +
                        flow.lean * material.flow_refraction;
     if (!is_steep()) {
@@ -170,6 +171,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
 
     c.water = water.anywhere;
     c.deeper_m = water.deeper_m;
+    c.lost = ripple.lost;
     c.snow = snow.snow;
     if (SNOW != 0u) {
         c.water = melt_wetness(water.anywhere, snow.melt, frame.weather.melt_exp);

@@ -226,6 +226,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     }
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
     data.texel.deeper_m = cover.deeper_m;
+    data.texel.cover_roughness = sqrt(sqrt(min(cover.lost, 1.0)));
     data.texel.material = at.material_id;
     data.texel.snow_smoothness = cover.snow_smoothness;
     data.texel.first_share = at.shares.x;

@@ -81,7 +81,12 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
 }
 
 // Rings of drops. Normals of the water are laid out in world x and z.
-vec3 ripple_normal(SurfaceInput at, StandingWater water, float open)
+struct Rings {
+    vec3 normal;
+    float lost;  // variance of their slopes that the normal does not show
+};
+
+Rings rings_on(SurfaceInput at, StandingWater water, float open, float fade)
 {
     const float tiling = frame.look.ripple_tiling;
     // Of whole levels a CPU reads one: by the shorter side of the pixel, which is all that is left of rings a few metres
@@ -90,9 +95,19 @@ vec3 ripple_normal(SurfaceInput at, StandingWater water, float open)
     const vec2 dy = at.position_dy.xz * tiling;
     const vec2 shorter = dot(dx, dx) < dot(dy, dy) ? dx : dy;
     const int level = quad_level(frame.ripple_bits, shorter, shorter);
-    const vec2 xy = textureLod(ripple_map, at.position.xz * tiling, float(level)).xy;
-    return mix(vec3(0.0, 0.0, 1.0), unpack_normal(xy, frame.look.ripple_strength),
-               water.deep * saturate(at.normal.y) * saturate(open * 2.0));
+    const vec2 place = at.position.xz * tiling;
+    const vec2 ring = textureLod(ripple_map, place, float(level)).xy;
+    // Roughness is of the longer side, of which each sample has its part: by the shorter one it would glitter.
+    const int parts = ((floatBitsToInt(frame.samples) >> 23) - 127) >> 1;
+    const int wide = max(quad_level(frame.ripple_bits, dx, dy) - parts, level);
+    const int side = 1 << (frame.ripple_bits - wide);
+    const vec2 square = texelFetch(ripple_map, ivec2(fract(place) * float(side)) & (side - 1), wide).zw;
+    const float share = water.deep * saturate(at.normal.y) * saturate(open * 2.0);
+    Rings rings;
+    rings.normal = mix(vec3(0.0, 0.0, 1.0), unpack_normal(ring, frame.look.ripple_strength), share);
+    const float scale = frame.look.ripple_strength * share;
+    rings.lost = rings_unseen(scale * scale * rings_square_of(square), rings.normal.xy, fade);
+    return rings;
 }
 
 // What bends a water surface: its normal is lean + up * normal of the geometry.

@@ -1,5 +1,6 @@
 #version 460
-// The rings of this moment: four layers of drops, summed as slopes (formulas/weather/ripple.h).
+// The rings of this moment: four layers of drops, summed as slopes (formulas/weather/ripple.h). Red and green: x and y of the normal; blue and alpha, of
+// smaller levels: the mean of x^2 + y^2 (ripple_mip.comp.glsl).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/weather/ripple.h"
@@ -31,5 +32,5 @@ void main()
                  ripple_slope(vec4(smooth_part.xyz, drop_time), layer.clock, layer.weight);
     }
     const vec3 normal = normalize(vec3(slope, 1.0));
-    imageStore(target, texel, vec4(0.5 * normal + 0.5, 1.0));
+    imageStore(target, texel, vec4(0.5 * normal.xy + 0.5, 0.0, 0.0));
 }

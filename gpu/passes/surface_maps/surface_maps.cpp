@@ -35,12 +35,12 @@ int mips_of(int size)
 }
 
 // Not by blits: how those round is the driver's, and what lavapipe loses at each level makes snow brighter.
-void add_mips(FrameGraph& graph, const char* name, GpuImage& image)
+void add_mips(FrameGraph& graph, const char* name, GpuImage& image, const char* shader = "map_mip.comp")
 {
     for (int mip = 1; mip < image.mips; ++mip) {
         const int side = image.width >> mip;
         graph.add(ComputePass{.name = name,
-                              .shader = "map_mip.comp",
+                              .shader = shader,
                               .constants = {},
                               .bindings = {{MAP_MIP_FROM, storage(image, mip - 1)}, {MAP_MIP_TO, storage(image, mip)}},
                               .push = {},
@@ -195,7 +195,7 @@ void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, 
                                  {RIPPLE_TARGET, storage(*maps.ripple, 0)}},
                     .push = PushBlock(shared::RippleParams{rain, time_s, speed}),
                     .groups = groups_over(maps.ripple_size, maps.ripple_size, SURFACE_MAPS_TILE)});
-    add_mips(graph, "ripple_mips", *maps.ripple);
+    add_mips(graph, "ripple_mips", *maps.ripple, "ripple_mip.comp");
 }
 
 void add_flow(FrameGraph& graph, SurfaceMaps& maps, float time_s)

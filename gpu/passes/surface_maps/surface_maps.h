@@ -14,7 +14,7 @@ struct SurfaceMaps {
     void set_tracks(const Device& device, const TrackMap& given);
 
     std::unique_ptr<GpuImage> ripple_source;  ///< drops: envelope, direction, time offset
-    std::unique_ptr<GpuImage> ripple;         ///< normals of the rings at this moment
+    std::unique_ptr<GpuImage> ripple;         ///< rings at this moment: normal xy, and the mean of their squares
     std::unique_ptr<GpuImage> flow;           ///< normals of small waves at this moment
     std::unique_ptr<GpuImage> snow;           ///< normal xy, mask, smoothness
     std::unique_ptr<GpuBuffer> flow_quads;    ///< red and green of `flow` (map_quads.glsl)
