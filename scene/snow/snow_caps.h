@@ -131,7 +131,8 @@ struct DrawnSnow {
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m);
 /// Points that are not drawn stay on the ground.
 /// held: of each point, what of the fall the slope of its place holds, where depth_m is of that place already, with its slope:
-/// steepness counts once, and a point that is steeper than its place, as the bevel of a stone, holds less of that. None: 1, open ground.
+/// from 8 cm on steepness counts once, and a point that is steeper than its place, as the bevel of a stone, holds less of that; up to 3 cm it
+/// counts for the body once more. None: 1, open ground.
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn, std::span<const float> held = {});
 DrawnSnow all_drawn(const SnowCaps& caps);
 

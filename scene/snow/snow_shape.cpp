@@ -100,8 +100,13 @@ float filled_m(const SnowCaps::Point& p, float depth_m, float sheet_m)
 float fallen_m(const SnowCaps::Point& p, float depth_m, float held)
 {
     constexpr float kLeastHeld = 0.02f;
+    // Thinner snow lies in the relief of a slope, as between its tiles, and is less of a body: whole it would be islands with edges of triangles.
+    constexpr float kInRelief_m = 0.03f, kOverRelief_m = 0.08f;
     const float drawn = drawn_snow_m(depth_m) * p.uneven;
-    const auto of_place = [held](float share, float slope) { return held < 1.0f ? share / std::max({slope, held, kLeastHeld}) : share; };
+    const float once = held < 1.0f ? shared::smooth_edge(kInRelief_m, kOverRelief_m, depth_m) : 0.0f;
+    const auto of_place = [held, once](float share, float slope) {
+        return once > 0.0f ? share + once * (share / std::max({slope, held, kLeastHeld}) - share) : share;
+    };
     const float share = of_place(p.share, p.slope), broad = of_place(p.broad, p.broad_slope);
     if (share == broad) return drawn * share;
     const float inside = p.edge_m < 0.25f ? shared::smooth_edge(0.05f, 0.25f, p.edge_m) : 1.0f;
