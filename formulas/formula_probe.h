@@ -53,6 +53,7 @@
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/ground_fields.h"
 #include "formulas/weather/ground_tone.h"
 #include "formulas/weather/gusts.h"
 #include "formulas/weather/land_relief.h"
@@ -73,7 +74,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 83;
+SHARED_CONST int kProbeKinds = 84;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)

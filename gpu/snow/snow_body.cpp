@@ -105,20 +105,16 @@ void SnowBody::list_corners()
     }
 }
 
-// Of the points, of what they lie on.
-std::vector<vec3> SnowBody::base_normals() const
+// Of the points, of what they lie on: as long as it is wide.
+std::vector<vec3> SnowBody::base_faces() const
 {
-    std::vector<vec3> normals(base_m_.size(), vec3(0.0f));
+    std::vector<vec3> faces(base_m_.size(), vec3(0.0f));
     for (std::size_t k = 0; k + 2 < corners_.size(); k += 3) {
         const std::uint32_t a = corners_[k], b = corners_[k + 1], c = corners_[k + 2];
         const vec3 face = glm::cross(base_m_[b] - base_m_[a], base_m_[c] - base_m_[a]);
-        for (const std::uint32_t point : {a, b, c}) normals[point] += face;
+        for (const std::uint32_t point : {a, b, c}) faces[point] += face;
     }
-    for (vec3& n : normals) {
-        const float length = glm::length(n);
-        n = length > 1.0e-12f ? n / length : vec3(0.0f, 1.0f, 0.0f);
-    }
-    return normals;
+    return faces;
 }
 
 std::vector<float> SnowBody::depths(const Frame& frame, const FrameTracks& tracks)
@@ -129,7 +125,7 @@ std::vector<float> SnowBody::depths(const Frame& frame, const FrameTracks& track
     if (placed && patches_.shape() != frame.place->shape) {
         std::vector<vec3> places;
         for (const scene::SnowCaps::Point& point : caps_->points) places.push_back(point.base_m);
-        patches_.find(frame.place->shape, places, base_normals());
+        patches_.find(frame.place->shape, places, base_faces());
     }
     std::vector<float> depths = placed ? patches_.depths_m(*frame.place, open_m) : std::vector<float>(caps_->points.size(), open_m);
     if (tracks.map() != nullptr) {
@@ -166,7 +162,7 @@ bool SnowBody::lay(const Frame& frame, const FrameTracks& tracks)
     if (!key.wanted) return lay_before;
     const std::vector<float> depth_m = depths(frame, tracks);
     choose_levels(depth_m);
-    const scene::SnowShape shape = scene::snow_shape(*caps_, depth_m, drawn_);
+    const scene::SnowShape shape = scene::snow_shape(*caps_, depth_m, drawn_, key.place ? std::span<const float>(patches_.held()) : std::span<const float>());
     lies_ = shape.thickest_m > kThin_m;
     if (!lies_) return lay_before;
     lift_m_ = 0.0f;

@@ -48,7 +48,7 @@ private:
         bool operator==(const Key&) const = default;
     };
     std::vector<float> depths(const Frame& frame, const FrameTracks& tracks);
-    std::vector<glm::vec3> base_normals() const;
+    std::vector<glm::vec3> base_faces() const;
 
     std::shared_ptr<const scene::SnowCaps> caps_;
     Overlay overlay_;

@@ -40,6 +40,8 @@ struct SnowCaps {
         glm::vec3 base_m{0.0f};       ///< on the scene
         float share = 0.0f;           ///< of the depth on open ground, by shelter and slope ..
         float broad = 0.0f;           ///< .. and of deep snow, which knows no slope of a bevel
+        float slope = 1.0f;           ///< what of `share` the slope leaves, shelter aside ..
+        float broad_slope = 1.0f;     ///< .. and of `broad`
         float edge_m = 1.0e9f;        ///< to the nearest edge where the snow ends in the open
         float support_m = 1.0e9f;     ///< how wide the ground below is: half a post's width
         glm::vec2 out{0.0f};          ///< towards that edge, world x and z
@@ -94,6 +96,9 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options);
 /// Whether snow on a material has a body.
 bool holds_snow_body(const Material& material);
 
+/// What of the depth a slope holds, by y of its normal. EN 1991-1-3: all of it up to 30 degrees, none from 60 on.
+float snow_on_slope(float up);
+
 /// Drawn snow is at most about so deep: what stands in the scene would drown.
 inline constexpr float kDeepestSnow_m = 0.4f;
 float drawn_snow_m(float depth_m);
@@ -125,7 +130,10 @@ struct DrawnSnow {
 /// than this bank and the snow below there is one sheet. Where there is none the cap lies below the surface.
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m);
 /// Points that are not drawn stay on the ground.
-SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn);
+/// held: of each point, what of the fall the slope of its place holds, where depth_m is of that place already, with its slope:
+/// from 8 cm on steepness counts once, and a point that is steeper than its place, as the bevel of a stone, holds less of that; up to 3 cm it
+/// counts for the body once more. None: 1, open ground.
+SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn, std::span<const float> held = {});
 DrawnSnow all_drawn(const SnowCaps& caps);
 
 }  // namespace petrichor::scene

@@ -9,8 +9,8 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x6a706163;  // "capj"
-static_assert(sizeof(SnowCaps::Point) == 36 * sizeof(float), "no padding: bytes are compared");
+constexpr std::uint32_t kMagic = 0x6b706163;  // "capk"
+static_assert(sizeof(SnowCaps::Point) == 38 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
     std::vector<std::byte> bytes;

@@ -13,6 +13,11 @@ float step_closed(float step_m, float depth_m)
     return 1.0f - shared::smooth_edge(1.45f, kHighestClosed, step_m / depth_m);
 }
 
+float snow_on_slope(float up)
+{
+    return std::clamp((1.04719755f - std::acos(std::clamp(up, 0.0f, 1.0f))) / 0.52359878f, 0.0f, 1.0f);
+}
+
 namespace {
 
 using glm::vec3;
@@ -92,13 +97,21 @@ float filled_m(const SnowCaps::Point& p, float depth_m, float sheet_m)
 }
 
 // What falls at a point: shoulders of stones, which hold little, are lost below deep snow.
-float fallen_m(const SnowCaps::Point& p, float depth_m)
+float fallen_m(const SnowCaps::Point& p, float depth_m, float held)
 {
+    constexpr float kLeastHeld = 0.02f;
+    // Thinner snow lies in the relief of a slope, as between its tiles, and is less of a body: whole it would be islands with edges of triangles.
+    constexpr float kInRelief_m = 0.03f, kOverRelief_m = 0.08f;
     const float drawn = drawn_snow_m(depth_m) * p.uneven;
-    if (p.share == p.broad) return drawn * p.share;
+    const float once = held < 1.0f ? shared::smooth_edge(kInRelief_m, kOverRelief_m, depth_m) : 0.0f;
+    const auto of_place = [held, once](float share, float slope) {
+        return once > 0.0f ? share + once * (share / std::max({slope, held, kLeastHeld}) - share) : share;
+    };
+    const float share = of_place(p.share, p.slope), broad = of_place(p.broad, p.broad_slope);
+    if (share == broad) return drawn * share;
     const float inside = p.edge_m < 0.25f ? shared::smooth_edge(0.05f, 0.25f, p.edge_m) : 1.0f;
     const float open = inside < 1.0f ? inside + p.wide * step_closed(p.drop_m, drawn) * (1.0f - inside) : 1.0f;
-    return drawn * (p.share + shared::smooth_edge(0.0f, 0.17f, drawn) * open * (p.broad - p.share));
+    return drawn * (share + shared::smooth_edge(0.0f, 0.17f, drawn) * open * (broad - share));
 }
 
 // The lesser of two depths, rounded where they meet.
@@ -170,7 +183,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     return snow_shape(caps, depth_m, all_drawn(caps));
 }
 
-SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn)
+SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn, std::span<const float> held)
 {
     const std::size_t count = caps.points.size();
     SnowShape shape{std::vector<vec3>(count), {}, std::vector<float>(count), std::vector<float>(count)};
@@ -192,7 +205,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const
         const SnowCaps::Point& p = caps.points[i];
         if (drawn.points[i] != DrawnSnow::kDrawn) shape.positions[i] = p.base_m;
         if (drawn.points[i] == 0) continue;
-        fallen[i] = fallen_m(p, depth_m[i]);
+        fallen[i] = fallen_m(p, depth_m[i], held.empty() ? 1.0f : held[i]);
         sheet[i] = sheet_m(p, fallen[i]);
         if (p.bank > 0.0f) {
             if (drawn.points[i] != DrawnSnow::kDrawn) continue;

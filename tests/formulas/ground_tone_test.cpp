@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formulas/weather/ground_fields.h"
 #include "formulas/weather/ground_relief.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
@@ -68,6 +69,59 @@ TEST(GroundTone, VariesInHueToo)
     EXPECT_NEAR(together.mean, 0.0, 0.006);
     const double far = spread_of(20000, [](vec2 at) { return ground_moisture(at, 300.0f); }).deviation;
     EXPECT_GT(far, 0.09);
+}
+
+TEST(GroundFields, AreAsBrightAsTheirTextureInTheMean)
+{
+    for (const float width_m : {0.0f, 20.0f, 200.0f}) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const Spread s = spread_of(100000, [&](vec2 at) { return field_tone(at, width_m, 1.0f)[channel]; });
+            EXPECT_NEAR(s.mean, 1.0, 0.008) << width_m << " " << channel;
+            EXPECT_GT(s.least, 0.1);
+            EXPECT_LT(s.most, 1.9);
+            if (width_m == 0.0f) {
+                EXPECT_GT(s.deviation, 0.15) << "land of many colours";
+                EXPECT_LT(s.deviation, 0.38);
+            }
+            if (width_m == 200.0f) {
+                EXPECT_LT(s.deviation, 0.13) << "parcels of a pixel are one colour";
+            }
+        }
+    }
+}
+
+// Inside a parcel all is alike, and the next but one tells nothing of it; from one to the next there is a border and no step.
+TEST(GroundFields, AreParcelsOfOneCropEach)
+{
+    const auto alike = [](float apart_m) {
+        double products = 0.0, squares = 0.0;
+        for (uint i = 0; i < 20000u; ++i) {
+            const vec2 at(40000.0f * hash_f(i), 40000.0f * hash_f(i + 77777u));
+            const double a = static_cast<double>(field_tone(at, 0.0f, 1.0f).x) - 1.0;
+            const double b = static_cast<double>(field_tone(at + vec2(0.6f, 0.8f) * apart_m, 0.0f, 1.0f).x) - 1.0;
+            products += a * b;
+            squares += a * a;
+        }
+        return products / squares;
+    };
+    EXPECT_GT(alike(20.0f), 0.6);
+    EXPECT_LT(std::abs(alike(900.0f)), 0.1);
+    float step = 0.0f;
+    for (float x = 0.0f; x < 4000.0f; x += 0.05f)
+        step = std::max(step, std::abs(field_tone({x + 0.05f, 0.3f * x}, 0.0f, 1.0f).x - field_tone({x, 0.3f * x}, 0.0f, 1.0f).x));
+    EXPECT_LT(step, 0.03f);
+}
+
+TEST(GroundFields, AreOfLevelGreenGroundFarFromTheScene)
+{
+    const vec3 green(0.1f, 0.17f, 0.05f), soil(0.2f, 0.16f, 0.12f), grey(0.15f);
+    EXPECT_EQ(farmed_share({900.0f, 0.0f}, 1.0f, green), 1.0f);
+    EXPECT_EQ(farmed_share({90.0f, 60.0f}, 1.0f, green), 0.0f);
+    EXPECT_EQ(farmed_share({900.0f, 0.0f}, 0.9f, green), 0.0f) << "26 degrees";
+    EXPECT_EQ(farmed_share({900.0f, 0.0f}, 1.0f, soil), 0.0f);
+    EXPECT_EQ(farmed_share({900.0f, 0.0f}, 1.0f, grey), 0.0f);
+    EXPECT_EQ(farmed_share({900.0f, 0.0f}, 1.0f, vec3(0.0f)), 0.0f);
+    EXPECT_EQ(field_tone({900.0f, 40.0f}, 3.0f, 0.0f), vec3(1.0f));
 }
 
 TEST(GroundTone, IsOffAtNoneAndGoneInAWidePixel)

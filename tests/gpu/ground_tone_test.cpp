@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "formulas/weather/ground_fields.h"
 #include "formulas/weather/ground_tone.h"
 #include "formulas/weather/land_relief.h"
 #include "gpu/upload/wide_ground.h"
@@ -54,7 +55,7 @@ class GroundToneTest : public GpuTest {};
 
 TEST_F(GroundToneTest, OfWideGroundIsThatOfTheFormulaAndOfSmallGroundNone)
 {
-    for (const float width_m : {400.0f, 100.0f}) {
+    for (const float width_m : {400.0f, 1200.0f, 100.0f}) {
         renderer->load(field(width_m), {});
         const RenderResult plain = renderer->render(from_above(0.9f * width_m, 0.0f));
         const RenderResult varied = renderer->render(from_above(0.9f * width_m, 1.0f));
@@ -63,7 +64,11 @@ TEST_F(GroundToneTest, OfWideGroundIsThatOfTheFormulaAndOfSmallGroundNone)
         for (int y = 4; y < kSize; y += 7) {
             for (int x = 4; x < kSize; x += 7) {
                 const glm::vec2 at(aov(varied, "position", x, y, 0), aov(varied, "position", x, y, 2));
-                const glm::vec3 tone = width_m > 142.0f ? shared::ground_tone(at, pixel_m, 1.0f) : glm::vec3(1.0f);
+                const float farmed = shared::farmed_share(at, 1.0f, {0.2f, 0.3f, 0.1f});
+                if (width_m > 1000.0f && glm::length(at) > 400.0f) {
+                    EXPECT_EQ(farmed, 1.0f);
+                }
+                const glm::vec3 tone = width_m > 142.0f ? shared::ground_tone(at, pixel_m, 1.0f) * shared::field_tone(at, pixel_m, farmed) : glm::vec3(1.0f);
                 for (int c = 0; c < 3; ++c) {
                     const float was = aov(plain, "base_color", x, y, c), is = aov(varied, "base_color", x, y, c);
                     // The G-buffer keeps roots in 8 bits.

@@ -43,6 +43,41 @@ TEST(SnowShape, APostRisesByTheDepthAndItsShouldersAreRound)
     EXPECT_LT(deep.thickest_m, 1.3f * kDeepestSnow_m);
 }
 
+// A slope holds a part of what falls on it. Where the depth is already that of such a slope it lies as deep there, and not the part of a
+// part; on what is steeper than its place there is less, on what is flatter no more.
+TEST(SnowShape, SteepnessCountsOnce)
+{
+    constexpr float kTilt = 40.0f, kHolds = 2.0f / 3.0f;
+    const float tilt = glm::radians(kTilt);
+    Scene scene = empty_scene();
+    add_face(scene, {-5, 3, 5}, {10, 0, 0}, {0, 10 * std::sin(tilt), -10 * std::cos(tilt)});
+    const SnowCaps caps = caps_of(scene);
+    const DrawnSnow all = all_drawn(caps);
+    // Far up the slope: there repose takes little.
+    for (const float depth : {0.02f, 0.08f, 0.1f}) {
+        const std::vector<float> depths(caps.points.size(), depth);
+        const auto of = [&](float held) { return snow_shape(caps, depths, all, std::vector<float>(caps.points.size(), held)); };
+        const SnowShape open = snow_shape(caps, depths), same = of(1.0f), slope = of(kHolds), flatter = of(0.5f), steeper = of(0.8f);
+        EXPECT_EQ(open.positions, same.positions);
+        int inner = 0;
+        for (std::size_t i = 0; i < caps.points.size(); ++i) {
+            const auto& p = caps.points[i];
+            if (std::abs(p.base_m.x) > 2.0f || p.base_m.z > 0.0f || p.base_m.z < -1.5f) continue;
+            ++inner;
+            ASSERT_NEAR(flatter.thickness_m[i], slope.thickness_m[i], 1.0e-5f) << "flatter than its place";
+            if (depth < 0.03f) {
+                ASSERT_NEAR(slope.thickness_m[i], open.thickness_m[i], 1.0e-5f) << "in the relief of the slope";
+                continue;
+            }
+            ASSERT_NEAR(slope.thickness_m[i], depth * p.uneven, 0.04f * depth);
+            ASSERT_LT(open.thickness_m[i], 0.85f * slope.thickness_m[i]);
+            ASSERT_LT(steeper.thickness_m[i], 0.95f * slope.thickness_m[i]) << "steeper than its place";
+            ASSERT_GT(steeper.thickness_m[i], open.thickness_m[i]);
+        }
+        EXPECT_GT(inner, 20);
+    }
+}
+
 // Snow slides off a kerb towards the road; the bed behind it, which shares no vertex with it, has no more there.
 TEST(SnowShape, IsOneSheetOverAKerbAndWhatLiesBehindIt)
 {

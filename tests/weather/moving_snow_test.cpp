@@ -175,6 +175,59 @@ TEST(SlidingSnow, LiesBelowTheEavesAfterwards)
     EXPECT_LE(std::abs(books.residual()), 1e-9 * books.fallen);
 }
 
+// Below one strip of a roof, on ground of 5 x 5 patches as small as those of a picture, too flat a heap to slide on by itself. A kerb at
+// its side gets some, a wall behind that none.
+TEST(SlidingSnow, BreaksIntoAHeapWithSoftSides)
+{
+    constexpr int kSide = 5, kMiddle = 2;
+    constexpr double kStep_m = 0.35, kArea_m2 = kStep_m * kStep_m;
+    const double tilt = 35.0 * kPi / 180.0;
+    Street street;
+    street.set.kinds[2].slides_above_deg = 15.0;
+    const auto number = [](int x, int z) { return static_cast<std::uint32_t>(1 + z * kSide + x); };
+    WeatherPatch& roof = street.add({std::sin(tilt), std::cos(tilt), 0}, 2);
+    roof.height_m = 5.0;
+    roof.area_m2 = kArea_m2;
+    roof.runs_to = number(kMiddle, kMiddle);
+    std::vector<std::uint32_t>& begin = street.set.beside_begin;
+    begin = {0, 0};
+    for (int z = 0; z < kSide; ++z) {
+        for (int x = 0; x < kSide; ++x) {
+            WeatherPatch& p = x < 4 ? street.add() : street.add({-1, 0, 0});
+            p.area_m2 = kArea_m2;
+            p.height_m = x == 3 ? 0.12 : 0.0;
+            for (const auto& [to_x, to_z] : {std::pair(x + 1, z), std::pair(x - 1, z), std::pair(x, z + 1), std::pair(x, z - 1)}) {
+                if (to_x < 0 || to_z < 0 || to_x >= kSide || to_z >= kSide) continue;
+                street.set.beside.push_back(number(to_x, to_z));
+                street.set.beside_m.push_back(static_cast<float>(kStep_m));
+            }
+            begin.push_back(static_cast<std::uint32_t>(street.set.beside.size()));
+        }
+    }
+    const ForcingTable table = winter_and_thaw();
+    PatchSet rough = street.set;
+    for (PatchKind& kind : rough.kinds) kind.slides_above_deg = 90.0;
+    PatchWeather slides(table, street.set, {}, table.time_us.front()), stays(table, rough, {}, table.time_us.front());
+    slides.go_to(table.time_us[29]);
+    const double fell = snow_on(slides, 0);
+    std::size_t hour = 30;
+    do {
+        slides.go_to(table.time_us[hour]);
+        stays.go_to(table.time_us[hour]);
+    } while (snow_on(slides, 0) > 0.02 * fell && ++hour < 59);
+    ASSERT_LT(hour, 59u) << "it has slid";
+    const auto more = [&](int x, int z) { return snow_on(slides, number(x, z)) - snow_on(stays, number(x, z)); };
+    EXPECT_GT(more(2, 2), 0.25 * fell);
+    EXPECT_LT(more(2, 2), 0.55 * fell);
+    for (const auto& [x, z] : {std::pair(1, 2), std::pair(2, 1), std::pair(2, 3), std::pair(3, 2)}) EXPECT_GT(more(x, z), 0.06 * fell) << x << " " << z;
+    EXPECT_NEAR(more(1, 1), more(1, 3), 1e-9);
+    EXPECT_GT(more(1, 1), 0.005 * fell);
+    EXPECT_LT(more(1, 1), more(1, 2));
+    EXPECT_NEAR(more(4, 2), 0.0, 0.002 * fell) << "a wall";
+    EXPECT_NEAR(more(0, 0), 0.0, 0.002 * fell);
+    EXPECT_LE(std::abs(slides.ledger().residual()), 1e-9 * slides.ledger().fallen);
+}
+
 TEST(SlidingSnow, SteeperAndSmootherRoofsGoFirstAndFlatterThanTheirRestNever)
 {
     const ForcingTable table = winter_and_thaw();

@@ -11,6 +11,7 @@
 #include "formulas/geometry/footprint.h"
 #include "formulas/light/layers.h"
 #include "formulas/light/second_lobe.h"
+#include "formulas/weather/ground_fields.h"
 #include "formulas/weather/ground_tone.h"
 #include "formulas/weather/land_relief.h"
 #include "gpu/passes/surface/beads.glsl"
@@ -112,7 +113,11 @@ SurfaceData evaluate_surface(SurfaceInput at)
     if (VARIED_GROUND) {
         const vec2 dx = at.position_dx.xz;
         const vec2 dy = at.position_dy.xz;
-        base *= ground_tone(at.position.xz, sqrt(max(dot(dx, dx), dot(dy, dy))), frame.look.ground_variation);
+        const float width_m = sqrt(max(dot(dx, dx), dot(dy, dy)));
+        // What grows on land of a control map is told by that.
+        const float farmed = LAYERED ? 0.0 : farmed_share(at.position.xz, at.normal.y, base);
+        base *= ground_tone(at.position.xz, width_m, frame.look.ground_variation);
+        if (farmed > 0.0) base *= field_tone(at.position.xz, width_m, frame.look.ground_variation * farmed);
     }
 #ifdef SURFACE_ALPHA
     data.alpha = surface_alpha(at);

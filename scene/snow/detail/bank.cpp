@@ -213,7 +213,8 @@ std::vector<BankPart> lay_banks(SnowCaps& caps, const CutMesh& mesh, const Sheet
                 if (k == 3) slope = there.slope;
             }
             const float up = 1.0f / std::sqrt(1.0f + glm::dot(slope, slope));
-            point.share = point.broad = seen * snow_on_slope(up);
+            point.slope = point.broad_slope = snow_on_slope(up);
+            point.share = point.broad = seen * point.slope;
             point.uneven = uneven_at(point.base_m, cell_m * static_cast<float>(stride));
             const std::size_t cell = ground.index(x, z);
             point.bank = 1.0f;

@@ -138,6 +138,7 @@ void fill_shares(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& n
             const float far = nearest_eye_m(options, point.base_m) / options.reach_m;
             // Blue of the vertices: where snow may lie at all.
             point.broad = open * (1.0f - shared::smooth_edge(0.7f, 0.97f, far)) * std::clamp(p.weather[v].z, 0.0f, 1.0f);
+            point.slope = slope;
             point.share = point.broad * slope;
         }
     }

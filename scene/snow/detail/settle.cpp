@@ -30,11 +30,6 @@ using Queue = std::priority_queue<Next, std::vector<Next>, std::greater<>>;
 
 }  // namespace
 
-float snow_on_slope(float up)
-{
-    return std::clamp((1.04719755f - std::acos(std::clamp(up, 0.0f, 1.0f))) / 0.52359878f, 0.0f, 1.0f);
-}
-
 void find_beyond(std::vector<Border>& edges, const SnowCaps& caps)
 {
     const auto cell_of = [](float x, float z) {

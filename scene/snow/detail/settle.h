@@ -11,9 +11,6 @@
 
 namespace petrichor::scene::detail {
 
-/// What of the depth a slope holds, by y of its normal. EN 1991-1-3: all of it up to 30 degrees, none from 60 on.
-float snow_on_slope(float up);
-
 /// Of edges with ground beyond: the points there.
 void find_beyond(std::vector<Border>& edges, const SnowCaps& caps);
 

@@ -208,7 +208,10 @@ Sheet fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>&
                 open = there.open;
                 seen = shared::smooth_edge(0.08f, 0.2f, there.bare);
             }
-            if (depth == kBroad_m) broad = open * snow_on_slope(1.0f / std::sqrt(1.0f + glm::dot(there.slope, there.slope)));
+            if (depth == kBroad_m) {
+                point.broad_slope = snow_on_slope(1.0f / std::sqrt(1.0f + glm::dot(there.slope, there.slope)));
+                broad = open * point.broad_slope;
+            }
         }
         // What lies below something else all around, as a wall below its coping, carries none.
         point.share *= seen;

@@ -18,6 +18,8 @@ constexpr double kHeapDensity_kg_m3 = 350.0;
 constexpr int kReposePasses = 8;
 constexpr double kTanDry = 1.0, kTanMoist = 1.4281480067421144;  // of 45 and 55 degrees
 constexpr double kLeastUp = 0.5;                                 // a heap lies on what faces up
+constexpr double kThrown = 0.7, kThrownOn = 0.3;                 // of a slab, where it lands and where that lands (ours)
+constexpr double kThrownUp_m = 0.15;                             // no higher than a kerb
 // Of the time that a wet pack holds, times its pull (ours): a metal roof of 30 degrees is bare after
 // two hours in the mean.
 constexpr double kSlidesPerHour = 2.0;
@@ -133,6 +135,37 @@ void settle_heaps(PatchLive& live, const PatchTables& t)
     }
 }
 
+// A slab breaks where it lands: most of it is thrown to what lies beside, and some of that on, so that what has come down below a
+// strip of a roof is a heap with soft sides and not the square of its patch.
+void spread(std::uint32_t at, const Snow& slab, PatchLive& live, const PatchTables& t)
+{
+    const PatchSet& set = t.set;
+    const auto lay = [&](std::uint32_t i, const Snow& snow) {
+        lay_snow(spot_of(live, t, i), snow, snow.mass_kg() / kHeapDensity_kg_m3, set.patches[i].area_m2);
+    };
+    // Not uphill onto what stands there, nor onto a roof that it would slide from again.
+    const auto takes = [&](std::uint32_t from, std::uint32_t to) {
+        return set.patches[to].normal.y >= kLeastUp && set.patches[to].height_m < set.patches[from].height_m + kThrownUp_m &&
+               !(t.slot[t.slot_of_patch[to]].slide_pull > 0.0);
+    };
+    const auto beside = [&](std::uint32_t i) {
+        std::vector<std::uint32_t> all;
+        if (i + 1 >= set.beside_begin.size()) return all;
+        for (std::uint32_t k = set.beside_begin[i]; k < set.beside_begin[i + 1]; ++k)
+            if (takes(i, set.beside[k])) all.push_back(set.beside[k]);
+        return all;
+    };
+    const auto near = beside(at);
+    if (near.empty()) return lay(at, slab);
+    lay(at, slab.share(1.0 - kThrown));
+    const double each = kThrown / static_cast<double>(near.size());
+    for (const std::uint32_t i : near) {
+        const auto far = beside(i);
+        lay(i, slab.share(far.empty() ? each : each * (1.0 - kThrownOn)));
+        for (const std::uint32_t j : far) lay(j, slab.share(each * kThrownOn / static_cast<double>(far.size())));
+    }
+}
+
 // A slab on its way: it takes along what lies on the slope below it, and is a heap where that ends.
 // Returns whether it came to lie on a patch.
 bool release(std::uint32_t first, PatchLive& live, const PatchTables& t, PatchScratch& w)
@@ -148,8 +181,7 @@ bool release(std::uint32_t first, PatchLive& live, const PatchTables& t, PatchSc
         pour_on(live, t, at, slab.mass_kg(), w);
         return false;
     }
-    lay_snow(spot_of(live, t, at), slab, slab.mass_kg() / kHeapDensity_kg_m3,
-             t.set.patches[at].area_m2);
+    spread(at, slab, live, t);
     return true;
 }
 
