@@ -91,6 +91,7 @@ SHARED_FN Lobe with_light_along_grain(Lobe lobe, float roughness, vec3 tangent, 
     const float cosine = grain_cosine(lobe.view, lobe.normal, tangent, along, narrow);
     const FoundAgain found = found_again(lobe.f0, same, cosine, share);
     lobe.again = found.color * lobe.lit;
+    lobe.steep = found.steep * lobe.lit;
     lobe.loss = found.loss;
     const float here = max(lost_at(found.loss, cosine), 1.0e-9f);
     const vec2 wide = spread_along_grain(along, across);
