@@ -74,7 +74,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 84;
+SHARED_CONST int kProbeKinds = 85;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)

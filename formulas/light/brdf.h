@@ -54,6 +54,7 @@ struct Lobe {
     float view_term;  // of the visibility
     float lit;
     vec3 again;      // what facets send on to each other and leaves as from a matt surface (FoundAgain); none by itself
+    vec3 steep;      // what a steep facet and flat ground send on
     FacetLoss loss;
 };
 
@@ -69,6 +70,7 @@ SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
     lobe.view_term = sqrt(lobe.nv * lobe.nv * (1.0f - lobe.a2) + lobe.a2);
     lobe.lit = f0.x + f0.y + f0.z > 0.0f ? 1.0f : 0.0f;
     lobe.again = splat3(0.0f);
+    lobe.steep = splat3(0.0f);
     lobe.loss.top0 = 0.0f;
     lobe.loss.top1 = 0.0f;
     lobe.loss.below0 = 1.0f;
@@ -84,6 +86,7 @@ SHARED_FN Lobe with_all_light(Lobe lobe, float roughness, float along)
 {
     const FoundAgain found = found_again(lobe.f0, roughness, lobe.nv, along);
     lobe.again = found.color * lobe.lit;
+    lobe.steep = found.steep * lobe.lit;
     lobe.loss = found.loss;
     return lobe;
 }
@@ -93,6 +96,19 @@ SHARED_FN Lobe with_all_light(Lobe lobe, float roughness, float along)
 SHARED_FN vec3 mirrored_along(Lobe lobe, float lh, float lost)
 {
     return schlick_fresnel(lobe.f0, lh) + lobe.again * (lobe.loss.along * sqrt(lost));
+}
+
+// What a steep facet and flat ground send on together, 1/sr, in white (facet_loss.h): the distribution of facets at their half vector times
+// what is seen of both ways, the second of which begins below the first.
+//   light, eye  cosines over the roots that Smith's shadows take: 1 where nothing is hidden
+//   seen        the sum of each cosine times the other's root
+//   beside      square of what both directions have beside the normal
+SHARED_FN float steep_and_flat(float nl, float nv, float light, float eye, float seen, float beside, float a2)
+{
+    const float apart = (nl - nv) * (nl - nv);
+    const float d = beside + apart * a2;
+    const float both = nl * nv;
+    return a2 * 0.25f * (1.0f + min(light, eye)) * both * (beside + apart) * (beside + apart) / max(kPi * d * d * seen * (seen - both), 1.0e-30f);
 }
 
 // Reflected radiance per unit irradiance on a facing plane, times nl.
@@ -106,11 +122,13 @@ SHARED_FN vec3 shade_lobe(Lobe lobe, vec3 l)
     const float lh = 0.5f * sqrt(s);
     const float sum = max(toward + dot(lobe.normal, lobe.view), 0.0f);
     const float d = max(s - sum * sum * (1.0f - lobe.a2), s * lobe.a2);
-    const float light_term = lobe.nv * sqrt(nl * nl * (1.0f - lobe.a2) + lobe.a2);
-    const float specular = lobe.a2 * 0.5f * lobe.lit * s * s /
-                           max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-30f);
+    const float from_light = sqrt(nl * nl * (1.0f - lobe.a2) + lobe.a2);
+    const float light_term = lobe.nv * from_light;
+    const float seen = nl * lobe.view_term + light_term;
+    const float specular = lobe.a2 * 0.5f * lobe.lit * s * s / max(kPi * d * d * seen, 1.0e-30f);
+    const float steep = steep_and_flat(nl, lobe.nv, nl / from_light, lobe.nv / lobe.view_term, seen, max(s - sum * sum, kSteepBeside), lobe.a2);
     const float lost = lost_at(lobe.loss, nl);
-    return (lobe.diffuse + lobe.again * lost + mirrored_along(lobe, lh, lost) * specular) * nl;
+    return (lobe.diffuse + lobe.again * lost + lobe.steep * steep + mirrored_along(lobe, lh, lost) * specular) * nl;
 }
 
 // The same for one light alone.

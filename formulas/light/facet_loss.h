@@ -7,8 +7,13 @@
 //
 // The lost share over cosine and roughness is fitted to sums of GGX with height-correlated masking over its visible
 // normals: from a roughness of 0.3 on at most 0.02 off, 0.014 from a cosine of 0.1 on; its mean over the hemisphere is at most 5 % of
-// itself off (FacetLoss.* sums again). Below that what is lost is a hundredth, but so is what one facet sends anywhere beside its
-// highlight: there the fit would show, and fades to none.
+// itself off (FacetLoss.* sums again).
+//
+// The smoother a surface, the more of what goes on meets one steep facet and the flat ground beside it: the facet mirrors light below the
+// horizon, which the ground sends up, or the other way round. That is the lobe of one facet with one of both directions turned upside
+// down, so its facets have the half vector of what is beside the normal, and of the difference of both cosines along it: no fit is in it.
+// Its light is an eighth of the dark beside the sharpest highlight and a third of it at grazing angles. Up to a roughness of 0.4 it takes the place of
+// the fit. That it grows by 6 alpha, and where it ends, was chosen by walks.
 #ifndef PETRICHOR_FORMULAS_LIGHT_FACET_LOSS_H
 #define PETRICHOR_FORMULAS_LIGHT_FACET_LOSS_H
 
@@ -69,8 +74,20 @@ SHARED_FN float lost_along_lobe(float roughness)
 
 struct FoundAgain {
     vec3 color;      // of what leaves as from a matt surface, 1/sr, for each share of lost_at() that was lost on the way in
+    vec3 steep;      // of what a steep facet and flat ground send on together
     FacetLoss loss;  // by that, and what goes along the lobe
 };
+
+// How much of what goes on is not a steep facet's and the ground's.
+SHARED_FN float many_facets(float roughness)
+{
+    const float r2 = roughness * roughness;
+    const float r8 = r2 * r2 * r2 * r2;
+    return r8 / (r8 + 2.0e-4f);
+}
+
+// What of both directions is beside the normal is at least so much, squared: nearer to the mirror's direction one facet is all that counts.
+SHARED_CONST float kSteepBeside = 1.0e-3f;
 
 //   f0       reflectance at normal incidence
 //   nv       cosine to the eye
@@ -83,7 +100,9 @@ SHARED_FN FoundAgain found_again(vec3 f0, float roughness, float nv, float along
     const float here = max(lost_at(found.loss, nv), 1.0e-9f);
     const vec3 average = f0 + (splat3(1.0f) - f0) * (1.0f / 21.0f);
     const float matt = (1.0f - lost) * max(1.0f - along, 0.001f) * here / (3.14159265f * lost);
-    found.color = average * average * matt / (splat3(1.0f) - average * lost);
+    const float many = many_facets(roughness);
+    found.color = average * average * (matt * many) / (splat3(1.0f) - average * lost);
+    found.steep = average * average * ((1.0f - many) * (1.0f + 6.0f * roughness * roughness));
     // Of the lobe of one facet, which then has the roots of both lost shares over what is kept in all.
     found.loss.along = along * sqrt(here) / matt;
     return found;

@@ -100,6 +100,17 @@ SHARED_FN vec3 filmed_f0(ThinFilm film, float cosine)
     return film.f0 + (thin_film_f0(film.ior, film.thickness_nm, film.f0, cosine) - film.f0) * film.share;
 }
 
+// What shows in the mean over the hemisphere, by cosine, told as schlick_fresnel() wants it, which may be a little below zero: what light
+// has that goes on between facets. By Gauss and Jacobi's four points; up to 1.2 um at most 0.014 off (Iridescence.ItsMeanIsThatOfAllCosines).
+SHARED_FN vec3 filmed_mean_f0(ThinFilm film)
+{
+    const vec3 mean = 0.0623619420f * thin_film_fresnel(film.ior, film.thickness_nm, film.f0, 0.1397598643f) +
+                      0.2596950952f * thin_film_fresnel(film.ior, film.thickness_nm, film.f0, 0.4164095676f) +
+                      0.4069291360f * thin_film_fresnel(film.ior, film.thickness_nm, film.f0, 0.7231569864f) +
+                      0.2710138268f * thin_film_fresnel(film.ior, film.thickness_nm, film.f0, 0.9428958039f);
+    return film.f0 + (min((mean * 21.0f - splat3(1.0f)) * (1.0f / 20.0f), splat3(1.0f)) - film.f0) * film.share;
+}
+
 SHARED_END
 
 #endif

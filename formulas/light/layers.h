@@ -86,6 +86,23 @@ SHARED_FN float anisotropic_lobe(vec3 n, vec3 t, vec3 v, vec3 l, float alpha_t, 
     return d * 0.5f / (nl * from_v + nv * from_l);
 }
 
+// What a steep facet of such a surface and flat ground send on together, 1/sr (facet_loss.h), in white.
+SHARED_FN float anisotropic_steep(vec3 n, vec3 t, vec3 v, vec3 l, float alpha_t, float alpha_b)
+{
+    const vec3 b = cross(n, t);
+    const float nl = max(dot(n, l), 1.0e-4f);
+    const float nv = max(dot(n, v), 1.0e-4f);
+    const float pt = dot(v, t) + dot(l, t);
+    const float pb = dot(v, b) + dot(l, b);
+    const float beside = max(pt * pt + pb * pb, kSteepBeside);
+    const float from_l = length(vec3(alpha_t * dot(l, t), alpha_b * dot(l, b), nl));
+    const float from_v = length(vec3(alpha_t * dot(v, t), alpha_b * dot(v, b), nv));
+    // As of a round lobe whose facets lean as much that way.
+    const float lean2 = beside / max(pt * pt / (alpha_t * alpha_t) + pb * pb / (alpha_b * alpha_b), 1.0e-6f);
+    const float a2 = clamp(lean2, alpha_b * alpha_b, alpha_t * alpha_t);
+    return steep_and_flat(nl, nv, nl / from_l, nv / from_v, nl * from_v + nv * from_l, beside, a2) * (a2 / (alpha_t * alpha_b));
+}
+
 SHARED_FN float coat_fresnel(float cosine)
 {
     const float m = 1.0f - clamp(cosine, 0.0f, 1.0f);
@@ -111,6 +128,7 @@ SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, floa
         const float sent_on = lobe.loss.along * weight_along_grain(lost, lost_in_all(facet_roughness_of(along, across)), narrow) *
                               anisotropic_lobe(n, layers.tangent, v, l, wide.x, wide.y) * lobe.lit;
         base = (lobe.diffuse + lobe.again * (lost + sent_on) +
+                lobe.steep * anisotropic_steep(n, layers.tangent, v, l, along, across) +
                 schlick_fresnel(lobe.f0, lh) * (anisotropic_lobe(n, layers.tangent, v, l, along, across) * lobe.lit)) * nl;
     }
     if (layers.sheen.x + layers.sheen.y + layers.sheen.z > 0.0f) {

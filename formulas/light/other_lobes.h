@@ -90,15 +90,18 @@ SHARED_FN vec2 lazarov_split_sum(float nv, float roughness)
 // wider, through them and coloured. The scales of strands tilt one to the root, the other to the tip
 // (Scheuermann 2004). Each is a long GGX lobe about a tilted normal.
 //   t       along the strands, unit, in the surface
+//   f0      reflectance of their surface at normal incidence; kHairReflectance of keratin
 //   shift   tilt, radians
-SHARED_FN vec3 shade_hair(vec3 n, vec3 t, vec3 v, vec3 l, vec3 diffuse, vec3 color, float roughness,
+SHARED_CONST float kHairReflectance = 0.046f;
+
+SHARED_FN vec3 shade_hair(vec3 n, vec3 t, vec3 v, vec3 l, vec3 diffuse, vec3 color, vec3 f0, float roughness,
                           float shift)
 {
     const float nl = dot(n, l);
     const float nv = dot(n, v);
     if (nl <= 0.0f || nv <= 0.0f) return splat3(0.0f);
     const float lh = clamp(dot(l, half_vector(v, l)), 0.0f, 1.0f);
-    const float fresnel = 0.046f + 0.954f * fifth_power(1.0f - lh);
+    const vec3 fresnel = schlick_fresnel(f0, lh);
     const float along = max(roughness * roughness, 0.01f);
     const vec3 root = normalize(n - t * shift);
     const vec3 tip = normalize(n + t * (1.5f * shift));
@@ -110,8 +113,8 @@ SHARED_FN vec3 shade_hair(vec3 n, vec3 t, vec3 v, vec3 l, vec3 diffuse, vec3 col
     // A tilted lobe may look below the surface.
     const float low = clamp(min(min(dot(root, l), dot(root, v)), min(dot(tip, l), dot(tip, v))) * 8.0f,
                             0.0f, 1.0f);
-    return (diffuse * ((1.0f - fresnel) / kPi) +
-            (splat3(fresnel * first) + color * ((1.0f - fresnel) * 0.5f * second)) * low) *
+    return (diffuse * (splat3(1.0f) - fresnel) * (1.0f / kPi) +
+            (fresnel * first + color * (splat3(1.0f) - fresnel) * (0.5f * second)) * low) *
            nl;
 }
 

@@ -18,12 +18,13 @@ struct LayerShares {
     vec3 second_normal;  // of a second lobe; of materials that have its texture
     float second_roughness;
     float second_share;  // of what is mirrored
-    float film;          // of a thin film; of materials without a second lobe
+    float film;            // of a thin film; of materials without a second lobe
+    float film_thickness;  // of them, too: 0..1 of what the material allows
 };
 
 LayerShares all_shares(vec3 normal)
 {
-    return LayerShares(1.0, 1.0, 1.0, 1.0, vec3(1.0), 1.0, 1.0, 1.0, normal, normal, 1.0, 0.0, 1.0);
+    return LayerShares(1.0, 1.0, 1.0, 1.0, vec3(1.0), 1.0, 1.0, 1.0, normal, normal, 1.0, 0.0, 1.0, 1.0);
 }
 
 // two_lobes: the material has a second lobe, whose normal takes the place of the textures of sheen.
@@ -32,7 +33,7 @@ uvec4 pack_shares(LayerShares s, bool two_lobes)
     return uvec4(packUnorm4x8(vec4(s.coat, s.coat_roughness, s.anisotropy, s.transmitted)),
                  two_lobes ? packSnorm2x16(octahedral_encode(s.second_normal))
                            : packUnorm4x8(vec4(sqrt(s.sheen), s.sheen_roughness)),
-                 packUnorm4x8(vec4(s.translucency, s.curvature, two_lobes ? s.second_roughness : s.film, s.second_share)),
+                 packUnorm4x8(vec4(s.translucency, s.curvature, two_lobes ? s.second_roughness : s.film, two_lobes ? s.second_share : s.film_thickness)),
                  packSnorm2x16(octahedral_encode(s.other_normal)));
 }
 
@@ -43,7 +44,7 @@ LayerShares unpack_shares(uvec4 code, bool two_lobes)
     const vec4 c = unpackUnorm4x8(code.z);
     return LayerShares(a.x, a.y, a.z, a.w, b.rgb * b.rgb, b.w, c.x, c.y,
                        octahedral_decode(unpackSnorm2x16(code.w)), octahedral_decode(unpackSnorm2x16(code.y)), c.z,
-                       two_lobes ? c.w : 0.0, two_lobes ? 1.0 : c.z);
+                       two_lobes ? c.w : 0.0, two_lobes ? 1.0 : c.z, two_lobes ? 1.0 : c.w);
 }
 
 #endif

@@ -58,12 +58,17 @@ bool scatters(const Material& m)
 }
 
 // LAYERS_... of a material. A roughness or a direction alone shows nothing.
-// Its thickness is told in place of a tangent; where it lies by shares that layers of glass have not, and a second lobe needs.
+// Whether its light lies along a tangent.
+bool has_grain(const Material& m)
+{
+    return m.anisotropy > 0.0f || m.lighting_model == "hair";
+}
+
+// Its thickness is told in place of a tangent, and beside one, as where it lies, by shares that layers of glass have not, and a second lobe needs.
 bool tells_film(const Material& m)
 {
-    const bool textured = m.maps.iridescence.present();
-    return m.iridescence > 0.0f && m.anisotropy <= 0.0f && m.lighting_model != "hair" &&
-           !(textured && (is_blended(m) || m.maps.second_lobe.present()));
+    const bool by_shares = m.maps.iridescence.present() || (has_grain(m) && m.maps.iridescence_thickness.present());
+    return m.iridescence > 0.0f && !(by_shares && (is_blended(m) || m.maps.second_lobe.present()));
 }
 
 std::uint32_t layers_of(const Material& m)
@@ -288,7 +293,8 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
         glm::vec4(m.scatter_color, m.skin_curvature),
         {m.skin_curvature_scale, m.second.scatter_bias, m.second.scatter_power, mixes(m) ? 1.0f : 0.0f},
         glm::vec4(m.second.scatter_color, (material.layers & LAYERS_SECOND_LOBE) != 0u ? 1.0f : 0.0f),
-        {m.iridescence, m.iridescence_ior, m.iridescence_thickness_min_nm, m.iridescence_thickness_max_nm}};
+        {m.iridescence, m.iridescence_ior, has_grain(m) && !m.maps.iridescence_thickness.present() ? m.iridescence_thickness_max_nm : m.iridescence_thickness_min_nm,
+         m.iridescence_thickness_max_nm}};
     std::memcpy(layers_->mapped + row * sizeof(texels), texels, sizeof(texels));
     return lighting_models_.count() + static_cast<std::uint32_t>(row);
 }
@@ -308,7 +314,8 @@ void GpuScene::sum_up_materials()
         const Material& m = current_[i];
         const bool smooth_coat = m.clearcoat > 0.0f && m.normal_texture.present();
         const bool shown = materials_[i].layers != 0 && (materials_[i].light_textures || smooth_coat);
-        layer_shares_ = layer_shares_ || shown || softens(m);
+        const bool thick = tells_film(m) && has_grain(m) && m.maps.iridescence_thickness.present();
+        layer_shares_ = layer_shares_ || shown || thick || softens(m);
     }
     light_maps_ = any([](const Material& m) { return m.light_map.present(); });
     decals_refused_ = !decals_.empty() && any([](const Material& m) { return !m.decal.received; });

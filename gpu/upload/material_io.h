@@ -176,7 +176,7 @@
 #define LAYER_ROLE_WORDS 3
 #define LAYER_TEXTURE_SLOTS 6
 #define MATERIAL_TEXTURE_SLOTS (TEXTURE_SLOTS + LAYER_TEXTURE_SLOTS)
-// Roles up to here, and those of the second lobe and of where a thin film is, are shares that lighting reads a pixel.
+// Roles up to here, and those of the second lobe and of where a thin film is, are shares that lighting reads a pixel; how thick that is, too, along a grain.
 #define LAYER_TEXTURES_OF_LIGHT 9
 
 // What else a material's surface does, SURFACE_SPEC_BESIDES.

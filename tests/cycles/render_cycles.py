@@ -45,8 +45,8 @@ def material(called):
     return made
 
 
-def of_lobes(called, lobes, data):
-    """A sum of lobes, each times its colour at every corner (layers.py)."""
+def of_lobes(called, lobes, data, lamps):
+    """A sum of lobes, each times its colour at every corner (layers.py), and those colours; `lamps`: what lights it has no size."""
     made = bpy.data.materials.new(called)
     made.use_nodes = True
     tree = made.node_tree
@@ -55,36 +55,65 @@ def of_lobes(called, lobes, data):
     total = None
     corners = [layers.Seen(p, n) for p, n in zip(*data)]
     colors = []
-    for number, ((kind, *how), color) in enumerate(lobes):
-        if kind == "absorb":
-            shader = tree.nodes.new("ShaderNodeVolumeAbsorption")
-            shader.inputs["Density"].default_value, shader.inputs["Color"].default_value = how[0], (*how[1], 1.0)
-            tree.links.new(shader.outputs[0], output.inputs["Volume"])
-            continue
-        colors.append([color(g) for g in corners])
-        share = tree.nodes.new("ShaderNodeAttribute")
-        share.attribute_name = f"lobe{number}"
-        if kind == "ggx" and len(how) == 3:
-            shader = stretched(tree, *how)
-        elif kind == "ggx":
-            shader = tree.nodes.new("ShaderNodeBsdfGlossy")
-            shader.distribution = "MULTI_GGX"
-            shader.inputs["Roughness"].default_value = how[0]
-        elif kind == "bent":
-            shader = tree.nodes.new("ShaderNodeBsdfRefraction")
-            shader.distribution = "GGX"
-            shader.inputs["IOR"].default_value, shader.inputs["Roughness"].default_value = how
-        else:
-            shader = tree.nodes.new({"clear": "ShaderNodeBsdfTransparent", "diffuse": "ShaderNodeBsdfDiffuse", "through": "ShaderNodeBsdfTranslucent", "glow": "ShaderNodeEmission"}[kind])
-        tree.links.new(share.outputs["Color"], shader.inputs["Color"])
+
+    def give(values, socket):
+        """Numbers of every corner to a node."""
+        told = tree.nodes.new("ShaderNodeAttribute")
+        told.attribute_name = f"lobe{len(colors)}"
+        colors.append(values)
+        tree.links.new(told.outputs["Color"], socket)
+
+    def and_also(shader):
+        nonlocal total
         if total:
             both = tree.nodes.new("ShaderNodeAddShader")
             tree.links.new(total.outputs[0], both.inputs[0])
             tree.links.new(shader.outputs[0], both.inputs[1])
             shader = both
         total = shader
+
+    for (kind, *how), color, left in lobes:
+        if kind == "absorb":
+            shader = tree.nodes.new("ShaderNodeVolumeAbsorption")
+            shader.inputs["Density"].default_value, shader.inputs["Color"].default_value = how[0], (*how[1], 1.0)
+            tree.links.new(shader.outputs[0], output.inputs["Volume"])
+            continue
+        shares, above = [color(g) for g in corners], [left(g) for g in corners]
+        if kind == "ggx" and how[0] > 0.0 and lamps:
+            many, roots, parts = layers.walks(how[1], shares, above)
+            alike = all(max(row) - min(row) < 1.0e-6 for row in shares)
+            for channel in [None] if alike else range(3):
+                shown = range(3) if alike else [channel]
+                root = [tuple(row[c] if c in shown else 0.0 for c in range(3)) for row in roots]
+                part = [(row[shown[0]],) * 3 for row in parts]
+                for _ in range(many):
+                    shader, mixed = facets(tree, how[0], *how[2:]), tree.nodes.new("ShaderNodeMixShader")
+                    give(root, shader.inputs["Color"])
+                    give(part, mixed.inputs["Fac"])
+                    tree.links.new(shader.outputs[0], mixed.inputs[2])
+                    and_also(mixed)
+            continue
+        if kind == "ggx":
+            shader = facets(tree, how[0], *how[2:])
+        elif kind == "bent":
+            shader = tree.nodes.new("ShaderNodeBsdfRefraction")
+            shader.distribution = "GGX"
+            shader.inputs["IOR"].default_value, shader.inputs["Roughness"].default_value = how
+        else:
+            shader = tree.nodes.new({"clear": "ShaderNodeBsdfTransparent", "diffuse": "ShaderNodeBsdfDiffuse", "through": "ShaderNodeBsdfTranslucent", "glow": "ShaderNodeEmission"}[kind])
+        give([layers.times(c, a) for c, a in zip(shares, above)], shader.inputs["Color"])
+        and_also(shader)
     tree.links.new(total.outputs[0], output.inputs["Surface"])
     return made, colors
+
+
+def facets(tree, roughness, *stretch):
+    if stretch:
+        return stretched(tree, roughness, *stretch)
+    shader = tree.nodes.new("ShaderNodeBsdfGlossy")
+    shader.distribution = "MULTI_GGX"
+    shader.inputs["Roughness"].default_value = roughness
+    return shader
 
 
 def stretched(tree, roughness, strength, turn):
@@ -112,7 +141,7 @@ def build(told):
         data.polygons.foreach_set("use_smooth", [True] * len(data.polygons))
         data.normals_split_custom_set_from_vertices(mesh.normals)
         if mesh.material in of_layers:
-            made, colors = of_lobes(mesh.material, of_layers[mesh.material], (mesh.positions, mesh.normals))
+            made, colors = of_lobes(mesh.material, of_layers[mesh.material], (mesh.positions, mesh.normals), told["sun"] is not None)
             for lobe, of_corners in enumerate(colors):
                 kept = data.attributes.new(f"lobe{lobe}", "FLOAT_COLOR", "POINT")
                 kept.data.foreach_set("color", [x for c in of_corners for x in (*c, 1.0)])

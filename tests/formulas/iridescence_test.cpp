@@ -90,5 +90,24 @@ TEST(Iridescence, FringesFadeInThickFilmsAndNeverSendMoreThanComesIn)
     }
 }
 
+// What light has that goes on between facets.
+TEST(Iridescence, ItsMeanIsThatOfAllCosines)
+{
+    for (const float ior : {1.3f, 1.6f, 2.0f}) {
+        for (float nm = 100.0f; nm <= 1200.0f; nm += 50.0f) {
+            const vec3 base(0.04f, 0.3f, 0.8f);
+            vec3 sum(0.0f);
+            for (int i = 0; i < 2000; ++i) {
+                const float cosine = (static_cast<float>(i) + 0.5f) / 2000.0f;
+                sum += thin_film_fresnel(ior, nm, base, cosine) * (2.0f * cosine / 2000.0f);
+            }
+            const vec3 told = filmed_mean_f0({1.0f, ior, nm, base});
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(told[c] + (1.0f - told[c]) / 21.0f, sum[c], 0.014f) << ior << " " << nm << " " << c;
+            const vec3 half = filmed_mean_f0({0.5f, ior, nm, base});
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(half[c], 0.5f * (base[c] + told[c]), 1e-6f);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace petrichor::shared

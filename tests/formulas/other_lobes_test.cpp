@@ -96,7 +96,7 @@ TEST(OtherLobes, AreReciprocal)
         const auto both = [&](const vec3& eye, const vec3& light) {
             return (shade_lwrp(kUp, eye, light, grey, vec3(0.04f), rough * rough) +
                     shade_burley(kUp, eye, light, grey, vec3(0.04f), rough) +
-                    shade_hair(kUp, t, eye, light, grey, grey, rough, shift)) /
+                    shade_hair(kUp, t, eye, light, grey, grey, vec3(0.04f, 0.3f, 0.6f), rough, shift)) /
                    light.z;
         };
         const vec3 there = both(v, l), back = both(l, v);
@@ -111,7 +111,7 @@ TEST(OtherLobes, HairSendsOutNoMoreThanComesInAndIsBrightAcrossItsStrands)
             for (const float turn : {0.0f, 0.8f, 1.57f}) {
                 const vec3 v = direction(up, turn);
                 const double all = albedo_of([&](const vec3& l) {
-                    return shade_hair(kUp, {1, 0, 0}, v, l, vec3(0.4f), vec3(1.0f), rough, 0.1f).x;
+                    return shade_hair(kUp, {1, 0, 0}, v, l, vec3(0.4f), vec3(1.0f), vec3(kHairReflectance), rough, 0.1f).x;
                 });
                 EXPECT_LE(all, 1.01) << up << " " << rough << " " << turn;
                 EXPECT_GT(all, 0.3) << up << " " << rough << " " << turn;
@@ -120,7 +120,7 @@ TEST(OtherLobes, HairSendsOutNoMoreThanComesInAndIsBrightAcrossItsStrands)
     }
     // Light moved across the strands keeps the highlight, moved along them leaves it.
     const auto seen = [](float turn) {
-        return shade_hair(kUp, {1, 0, 0}, kUp, direction(0.8f, turn), vec3(0.0f), vec3(0.0f), 0.4f, 0.05f).x;
+        return shade_hair(kUp, {1, 0, 0}, kUp, direction(0.8f, turn), vec3(0.0f), vec3(0.0f), vec3(kHairReflectance), 0.4f, 0.05f).x;
     };
     EXPECT_GT(seen(1.5707963f), 3.0f * seen(0.0f));
 }

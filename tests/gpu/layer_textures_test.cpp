@@ -4,6 +4,8 @@
 #include <functional>
 
 #include "formulas/light/iridescence.h"
+#include "formulas/light/layers.h"
+#include "formulas/light/other_lobes.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {
@@ -433,13 +435,72 @@ TEST_F(LayerTextures, AThinFilmIsColouredByEachLamp)
         const auto lobe = [&](const glm::vec3& f0) {
             return shared::with_all_light(shared::make_lobe({0, 1, 0}, to_eye, glm::vec3(0.0f), f0, 0.25f), 0.5f, shared::lost_along_lobe(0.5f));
         };
-        const glm::vec3 wanted = shared::shade_lobe(lobe(shared::filmed_f0(film, cosine)), to_lamp) / shared::shade_lobe(lobe(base), to_lamp);
+        shared::Lobe coloured = lobe(shared::filmed_mean_f0(film));
+        coloured.f0 = shared::filmed_f0(film, cosine);
+        const glm::vec3 wanted = shared::shade_lobe(coloured, to_lamp) / shared::shade_lobe(lobe(base), to_lamp);
         const glm::vec3 plain(pixel(shot(metal), 23, 23)), seen(pixel(shot(filmed), 23, 23));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / plain[c], wanted[c], 0.03f * wanted[c]) << way.x << " " << way.z << " " << c;
         most = std::max(most, wanted.r / wanted.b);
         least = std::min(least, wanted.r / wanted.b);
     }
     EXPECT_GT(most, 1.5f * least);
+}
+
+// Where a grain or strands lie along a tangent, too: of one thickness, and of one that a texture tells.
+TEST_F(LayerTextures, AThinFilmIsColouredByEachLampAlongAGrainAndOnHair)
+{
+    frame.sky.sun_elevation_rad = -1.0f;
+    frame.settings.image_based_light = false;
+    frame.settings.width = frame.settings.height = 47;
+    const glm::vec3 base(0.6f, 0.55f, 0.5f), to_eye = glm::normalize(glm::vec3(0, 1, 1)), up(0, 1, 0);
+    const Texture even = halves({128, 128, 128, 255}, {128, 128, 128, 255});
+    for (const bool hair : {false, true}) {
+        for (const bool textured : {false, true}) {
+            Material plain = plain_material(hair ? glm::vec3(0.0f) : base, 0.5f);
+            plain.metallic = hair ? 0.0f : 1.0f;
+            plain.anisotropy = hair ? 0.0f : 0.6f;
+            plain.hair_shift = 0.0f;
+            if (hair) plain.lighting_model = "hair";
+            Material filmed = plain;
+            filmed.iridescence = 0.8f;
+            filmed.iridescence_ior = 1.8f;  // not that of hair
+            filmed.iridescence_thickness_min_nm = textured ? 100.0f : 20.0f;
+            filmed.iridescence_thickness_max_nm = textured ? 740.0f : 420.0f;
+            if (textured) filmed.maps.iridescence_thickness = first_texture();
+            const shared::ThinFilm film{0.8f, 1.8f, textured ? 100.0f + 640.0f * 128.0f / 255.0f : 420.0f, hair ? glm::vec3(0.04f) : base};
+            float most = 0.0f, least = 10.0f;
+            for (const glm::vec3& way : {glm::vec3(0, 1, -1), glm::vec3(0, 1, 0), glm::vec3(0.4f, 1, 0.7f), glm::vec3(-0.6f, 1, -1)}) {
+                const glm::vec3 to_lamp = glm::normalize(way);
+                Light lamp;
+                lamp.kind = LightKind::Point;
+                lamp.position_m = 20.0f * to_lamp;
+                lamp.intensity = 1e7f;
+                frame.extra_lights = {lamp};
+                const float cosine = glm::dot(to_eye, glm::normalize(to_eye + to_lamp));
+                const glm::vec3 at_half = shared::filmed_f0(film, cosine);
+                glm::vec3 wanted;
+                if (hair) {
+                    const glm::vec3 strand(shared::kHairReflectance);
+                    wanted = shared::schlick_fresnel(strand + at_half - film.f0, cosine) / shared::schlick_fresnel(strand, cosine);
+                } else {
+                    shared::Layers layers{};
+                    layers.anisotropy = 0.6f;
+                    layers.tangent = glm::vec3(1, 0, 0);
+                    const auto seen = [&](const glm::vec3& sent_on, const glm::vec3& f0) {
+                        shared::Lobe lobe = shared::with_light_along_grain(shared::make_lobe(up, to_eye, glm::vec3(0.0f), sent_on, 0.25f), 0.5f, layers.tangent, 0.6f);
+                        lobe.f0 = f0;
+                        return shared::shade_layered_lobe(lobe, to_lamp, glm::vec3(0.0f), 0.5f, layers);
+                    };
+                    wanted = seen(shared::filmed_mean_f0(film), at_half) / seen(base, base);
+                }
+                const glm::vec3 bare(pixel(shot(plain, {even}), 23, 23)), seen(pixel(shot(filmed, {even}), 23, 23));
+                for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / bare[c], wanted[c], 0.04f * wanted[c]) << hair << textured << " " << way.x << " " << way.z << " " << c;
+                most = std::max(most, wanted.r / wanted.b);
+                least = std::min(least, wanted.r / wanted.b);
+            }
+            EXPECT_GT(most, (hair ? 1.04f : 1.3f) * least) << hair << textured;
+        }
+    }
 }
 
 // A panel is mirrored in the colour of where the lobe meets it, which is not its middle: beside as many points as stand for it.

@@ -355,6 +355,14 @@ TEST(Gltf, SaysWhatItIgnores)
             HasSubstr("metallicFactor: the value is out of range")));
 }
 
+TEST(Gltf, SaysThatWhatComesThroughHasTheBaseColour)
+{
+    const Scene scene = load(edited({{"/materials/0/extensions/KHR_materials_diffuse_transmission",
+                                      {{"diffuseTransmissionFactor", 0.5}, {"diffuseTransmissionColorFactor", {1, 0, 0}}}}}));
+    EXPECT_EQ(scene.materials[0].diffuse_transmission, 0.5f);
+    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("diffuseTransmissionColorFactor: is left out")));
+}
+
 TEST(Gltf, SaysThatALampTakesLightAway)
 {
     const Scene scene = load(edited({{"/extensions/KHR_lights_punctual/lights/0/color", {-1, 0.5, 1}}}));

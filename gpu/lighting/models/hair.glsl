@@ -8,8 +8,12 @@ const float kHairDiffuse = 0.4;
 
 vec3 hair_light(LitPoint p, vec3 to_light)
 {
+    // A film over the strands colours them by the half vector.
+    vec3 f0 = vec3(kHairReflectance);
+    if (p.thin_film.share > 0.0)
+        f0 = clamp(f0 + filmed_f0(p.thin_film, clamp(sqrt(0.5 + 0.5 * dot(p.view, to_light)), 0.02, 1.0)) - p.thin_film.f0, vec3(0.0), vec3(1.0));
     return shade_hair(p.normal, p.layers.tangent, p.view, to_light, p.diffuse * kHairDiffuse,
-                      p.base_color, p.roughness, p.hair_shift);
+                      p.base_color, f0, p.roughness, p.hair_shift);
 }
 
 Reflected hair_surround(LitPoint p, Surroundings s)

@@ -85,6 +85,7 @@ float light_near_m(LightRow light)
 Lobe with_again_of(Lobe lobe, Lobe from, float share)
 {
     lobe.again = from.again * share;
+    lobe.steep = from.steep * share;
     lobe.loss = from.loss;
     return lobe;
 }
@@ -98,6 +99,7 @@ LitPoint matt_part(LitPoint p, float highlight)
     q.lobe = with_again_of(make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), vec3(0.0),
                                      p.roughness * p.roughness), p.lobe, highlight);
     q.second.lobe.again *= highlight;
+    q.second.lobe.steep *= highlight;
     q.second.lobe.lit = 0.0;
     q.second.lobe.f0 = vec3(0.0);
     return q;

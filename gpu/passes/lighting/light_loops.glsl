@@ -44,6 +44,7 @@ Lobe shown_so_much(Lobe lobe, float share)
 {
     lobe.lit *= share;
     lobe.again *= share;
+    lobe.steep *= share;
     lobe.loss.along /= max(share, 1.0e-6);  // of a lobe that has its share already
     return lobe;
 }

@@ -160,8 +160,14 @@ void main()
         ThinFilm thin = ThinFilm(0.0, 1.0, 0.0, g.f0);
         if ((LAYERS & LAYERS_IRIDESCENT) != 0u && g.model >= LIGHTING_MODEL_COUNT) {
             const vec4 told = texelFetch(layers_table, int(g.model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS + 8);
-            thin = ThinFilm(told.x, told.y, mix(told.z, told.w, g.tangent), g.f0);
-            if (SHARES != 0u) thin.share *= unpack_shares(texelFetch(layer_shares, texel, 0), has_second_lobe(g.model)).film;
+            float thick = g.tangent;  // of a grain and of hair it is the tangent: shares have it there, or it is the same everywhere
+            float covered = 1.0;
+            if (SHARES != 0u) {
+                const LayerShares share = unpack_shares(texelFetch(layer_shares, texel, 0), has_second_lobe(g.model));
+                covered = share.film;
+                if (!has_second_lobe(g.model)) thick = share.film_thickness;
+            }
+            thin = ThinFilm(told.x * covered, told.y, mix(told.z, told.w, thick), g.f0);
             // As the eye sees it.
             if (thin.share > 0.0) dry.f0 = filmed_f0(thin, clamp(abs(dot(g.base_normal, v)), 0.02, 1.0));
         }
@@ -287,8 +293,10 @@ void main()
         if (TWO_LOBES && beside.share > 0.0) {
             p.second.roughness = clamp(beside.roughness, 0.045, 1.0);
             p.second.share = beside.share;
-            p.second.lobe = with_all_light(make_lobe(beside.normal, v, vec3(0.0), m.specular, p.second.roughness * p.second.roughness),
-                                           p.second.roughness, lost_along_lobe(p.second.roughness));
+            Lobe second = make_lobe(beside.normal, v, vec3(0.0), m.specular, p.second.roughness * p.second.roughness);
+            second.f0 = sent_on_f0(p, m.specular);
+            p.second.lobe = with_all_light(second, p.second.roughness, lost_along_lobe(p.second.roughness));
+            p.second.lobe.f0 = m.specular;
         }
         vec3 mirror_normal = first_normal;
         if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {
@@ -335,8 +343,10 @@ void main()
                 }
             }
         }
-        p.lobe = with_light_along_grain(make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
-                                                  p.roughness * p.roughness), p.roughness, p.layers.tangent, p.layers.anisotropy);
+        Lobe lobe = make_lobe(first_normal, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular, p.roughness * p.roughness);
+        lobe.f0 = sent_on_f0(p, m.specular);
+        p.lobe = with_light_along_grain(lobe, p.roughness, p.layers.tangent, p.layers.anisotropy);
+        p.lobe.f0 = m.specular;
 
         p.shaped = shaped_lobes(p);
         if ((SUN != 0u && SHADOWS != 0u) || LAMP_SHADOWS != 0u || BENT_NORMALS)

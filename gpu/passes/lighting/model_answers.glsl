@@ -49,7 +49,16 @@ vec3 model_gather(LitPoint p, vec3 to_light)
     return p.gathers == GATHERS_DIFFUSE ? one.diffuse : one.specular;
 }
 
+// Of what facets send on to each other: a film's colour there is the mean over all cosines.
+vec3 sent_on_f0(LitPoint p, vec3 f0)
+{
+    if ((LAYERS & LAYERS_IRIDESCENT) == 0u || p.thin_film.share <= 0.0) return f0;
+    const float seen = clamp(dot(p.normal, p.view), 0.02, 1.0);
+    return clamp(f0 + filmed_mean_f0(p.thin_film) - filmed_f0(p.thin_film, seen), vec3(-0.05), vec3(1.0));
+}
+
 // A thin film as a light shows it that comes from there: coloured by the half vector. What is left to be scattered goes by it.
+// What facets send on to each other has its own colour already.
 LitPoint filmed_toward(LitPoint p, vec3 to_light)
 {
     if ((LAYERS & LAYERS_IRIDESCENT) == 0u) return p;
@@ -57,10 +66,6 @@ LitPoint filmed_toward(LitPoint p, vec3 to_light)
     const float asked = clamp(sqrt(0.5 + 0.5 * dot(p.view, to_light)), 0.02, 1.0);
     const vec3 change = p.thin_film.share > 0.0 ? filmed_f0(p.thin_film, asked) - filmed_f0(p.thin_film, seen) : vec3(0.0);
     const vec3 before = p.specular;
-    // Light that goes on between facets meets two of them.
-    const vec3 was = p.lobe.f0 + (vec3(1.0) - p.lobe.f0) * (1.0 / 21.0);
-    const vec3 is = was + change * (20.0 / 21.0);
-    p.lobe.again *= clamp(is * is / (was * was), vec3(0.0), vec3(4.0));
     // Without a highlight it stays so.
     if (before.r + before.g + before.b > 0.0) p.specular = clamp(before + change, vec3(0.0), vec3(1.0));
     p.lobe.f0 = p.lobe.lit > 0.0 ? clamp(p.lobe.f0 + change, vec3(0.0), vec3(1.0)) : p.lobe.f0;

@@ -218,7 +218,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.body = 1.0;
     if ((BESIDES & BESIDES_IRIDESCENT) != 0u) add_thin_film(data.texel, at, shift);
     if ((BESIDES & BESIDES_FILM_TOLD) != 0u) {
-        data.texel.tangent = film_thickness(at, shift);
+        if ((BESIDES & BESIDES_ALONG) == 0u) data.texel.tangent = film_thickness(at, shift);
         as_reflectance(data.texel);
     }
     if ((BESIDES & BESIDES_SHARES) != 0u) data.shares = layer_shares(at, f, normal, shift);

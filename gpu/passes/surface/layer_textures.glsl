@@ -78,6 +78,7 @@ LayerShares layer_shares(SurfaceInput at, TangentFrame f, vec3 normal, vec2 shif
     s.transmitted = layer_number(LAYER_TEXTURE_DIFFUSE_TRANSMISSION, at, shift);
     s.translucency = layer_number(LAYER_TEXTURE_TRANSLUCENCY, at, shift);
     s.film = layer_number(LAYER_TEXTURE_IRIDESCENCE, at, shift);
+    s.film_thickness = film_thickness(at, shift);
     s.curvature = layer_number(LAYER_TEXTURE_SKIN_CURVATURE, at, shift);
     if (has_layer(LAYER_TEXTURE_ANISOTROPY)) {
         s.anisotropy = layer_texel(LAYER_TEXTURE_ANISOTROPY, at, shift, 1.0).b;
