@@ -122,8 +122,8 @@ Sequence make_sequence(Scenario scenario)
         variant.air =
             AirTravel(wind, output.start_s, sequence.duration_s, output.frames / output.fps);
         const double film_s = output.frames / output.fps;
-        const auto snow_m = [at = variant.weather.at, output, duration_s = sequence.duration_s, film_s](double s) {
-            const shared::WeatherMoment& w = at(output.start_s + duration_s * s / film_s).values;
+        const auto snow_m = [at = variant.weather.at, output, duration_s = sequence.duration_s, film_s](double film_time_s) {
+            const shared::WeatherMoment& w = at(output.start_s + duration_s * film_time_s / film_s).values;
             return w.snow_amount > 0.0f ? static_cast<double>(w.snow_depth_m) : 0.0;
         };
         variant.snow = SnowHistory(snow_m, film_s, std::clamp(4 * output.frames, 64, 4096));

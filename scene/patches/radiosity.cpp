@@ -88,25 +88,20 @@ struct SkyShares {
     std::vector<float> share;
 };
 
-SkyShares sky_shares(const Patches& patches, const Relight& input)
+bool leaves_above(const Patches& patches, std::uint32_t link)
+{
+    return link >= patches.count && link < patches.count + static_cast<std::uint32_t>(shared::kSkyBins) &&
+           shared::sky_bin_above(static_cast<int>(link - patches.count));
+}
+
+SkyShares sky_shares(const Patches& patches, const StandingLinks& links, const Relight& input)
 {
     SkyShares sky{std::vector<Four>(patches.count, Four{}), std::vector<glm::vec3>(patches.count, glm::vec3(0.0f)),
                   std::vector<float>(patches.count, 0.0f)};
     const std::vector<SkyTexel> coarse = input.sky_above.empty() ? sky_texels(input.sky) : std::vector<SkyTexel>{};
     const OpenSky open(input.sky_above.empty() ? std::span<const SkyTexel>(coarse) : input.sky_above);
-    std::array<std::uint8_t, shared::kSkyBins> above{};
-    for (int bin = 0; bin < shared::kSkyBins; ++bin)
-        above[static_cast<std::size_t>(bin)] = shared::sky_bin_above(bin) ? 1 : 0;
     over_rows(patches.count, input.threads, [&](std::uint32_t i) {
-        const std::uint16_t* row = patches.row(i);
-        int rays = 0;
-        glm::vec3 mean(0.0f);
-        for (int r = 0; r < patches.rays; ++r) {
-            const std::uint32_t bin = static_cast<std::uint32_t>(row[r]) - patches.count;
-            if (bin >= static_cast<std::uint32_t>(shared::kSkyBins) || above[bin] == 0) continue;
-            ++rays;
-            mean += input.sky[bin];
-        }
+        const int rays = links.above[i];
         if (rays == 0) return;
         sky.share[i] = static_cast<float>(rays) / static_cast<float>(patches.rays);
         const OpenSky::Mean seen = open.seen_by(patches, i);
@@ -115,6 +110,10 @@ SkyShares sky_shares(const Patches& patches, const Relight& input)
             sky.moment[i] = seen.moment;
         } else {
             // A slit that none of its bits looks through: by the rays that do.
+            const std::uint16_t* row = patches.row(i);
+            glm::vec3 mean(0.0f);
+            for (int r = 0; r < patches.rays; ++r)
+                if (leaves_above(patches, row[r])) mean += input.sky[row[r] - patches.count];
             sky.light[i] = four(mean / static_cast<float>(rays));
             sky.moment[i] = patches.normal[i] * (sky.light[i][3] * 2.0f / 3.0f);
         }
@@ -124,42 +123,24 @@ SkyShares sky_shares(const Patches& patches, const Relight& input)
 
 constexpr int kOpenLevel = 2;  // of cells that stand in the open
 
-// What small patches, as a wall beside a lamp, send to wide ones, better than the rows of those say it: of 128 rays one or
-// none meets such a wall, or three do. Its own rays tell the same by reciprocity, A_i F_ij = A_j F_ji, the better the
-// smaller it is: both together, each by its number of rays that are expected, have the least variance. What is returned
-// is to be added to the light of a row. Off what a row has in the mean, so that a furnace stays one; for cells in the open
-// alone, whose area is all seen (of leaves some is within).
-std::vector<Four> by_reciprocity(const Patches& patches, const std::vector<Four>& own, int threads)
+// Light that wide cells are short of, by all rays between them and smaller patches (StandingLinks), to be added to that of their own rays.
+std::vector<Four> by_reciprocity(const Patches& patches, const StandingLinks& links, const std::vector<Four>& own, int threads)
 {
-    std::vector<Four> more(patches.count, Four{}), mean(patches.count, Four{});
-    const auto rays = static_cast<std::size_t>(patches.rays);
+    std::vector<Four> more(patches.count, Four{});
     const float share = 1.0f / static_cast<float>(patches.rays);
-    std::vector<std::uint8_t> open(patches.count, 0);
-    for (std::uint32_t i = 0; i < patches.count; ++i) open[i] = level_of(patches.key[i]) >= kOpenLevel ? 1 : 0;
-    over_rows(patches.count, threads, [&](std::uint32_t i) {
-        if (open[i] == 0) return;
-        const std::uint16_t* row = patches.row(i);
-        const float area = patches.area_m2[i];
+    over_rows(static_cast<std::uint32_t>(links.wide.size()), threads, [&](std::uint32_t w) {
+        const std::uint16_t* row = patches.row(links.wide[w]);
         Four sum{};
-        for (std::size_t r = 0; r < rays; ++r)
+        for (int r = 0; r < patches.rays; ++r)
             if (row[r] < patches.count) sum += own[row[r]];
-        mean[i] = sum * Four{share, share, share, share};
-        for (std::size_t r = 0; r < rays; ++r) {
-            if (row[r] >= patches.count || !(area > patches.area_m2[row[r]])) continue;
-            const float weight = share * area / (area + patches.area_m2[row[r]]);
-            more[i] -= (own[row[r]] - mean[i]) * Four{weight, weight, weight, weight};
+        const Four mean = sum * Four{share, share, share, share};
+        Four light{};
+        for (std::uint32_t e = links.first[w]; e < links.first[w + 1]; ++e) {
+            const float weight = links.weight[e];
+            light += (own[links.sender[e]] - mean) * Four{weight, weight, weight, weight};
         }
+        more[links.wide[w]] = light;
     });
-    for (std::uint32_t j = 0; j < patches.count; ++j) {
-        const std::uint16_t* row = patches.row(j);
-        const float area = patches.area_m2[j];
-        for (std::size_t r = 0; r < rays; ++r) {
-            const std::uint32_t i = row[r];
-            if (i >= patches.count || open[i] == 0 || !(patches.area_m2[i] > area)) continue;
-            const float weight = share * area / (patches.area_m2[i] + area);
-            more[i] += (own[j] - mean[i]) * Four{weight, weight, weight, weight};
-        }
-    }
     return more;
 }
 
@@ -222,6 +203,53 @@ std::vector<glm::vec3> near_sends(const Patches& patches, const Relight& input, 
 }
 
 }  // namespace
+
+StandingLinks standing_links(const Patches& patches)
+{
+    StandingLinks links;
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const std::uint16_t* row = patches.row(i);
+        links.above.push_back(static_cast<std::uint16_t>(
+            std::count_if(row, row + patches.rays, [&](std::uint16_t link) { return leaves_above(patches, link); })));
+    }
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    std::vector<std::uint32_t> number(patches.count, kNone);
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        if (level_of(patches.key[i]) < kOpenLevel) continue;
+        number[i] = static_cast<std::uint32_t>(links.wide.size());
+        links.wide.push_back(i);
+    }
+    const float share = 1.0f / static_cast<float>(patches.rays);
+    // Of a ray that a patch of that area sends.
+    const auto both_ways = [&](std::uint32_t i, std::uint32_t j, float area_m2) {
+        return share * area_m2 / (patches.area_m2[i] + patches.area_m2[j]);
+    };
+    const auto each = [&](const auto& put) {
+        for (const std::uint32_t i : links.wide) {
+            const std::uint16_t* row = patches.row(i);
+            for (int r = 0; r < patches.rays; ++r)
+                if (row[r] < patches.count && patches.area_m2[i] > patches.area_m2[row[r]])
+                    put(number[i], row[r], -both_ways(i, row[r], patches.area_m2[i]));
+        }
+        for (std::uint32_t j = 0; j < patches.count; ++j) {
+            const std::uint16_t* row = patches.row(j);
+            for (int r = 0; r < patches.rays; ++r)
+                if (row[r] < patches.count && number[row[r]] != kNone && patches.area_m2[row[r]] > patches.area_m2[j])
+                    put(number[row[r]], j, both_ways(row[r], j, patches.area_m2[j]));
+        }
+    };
+    links.first.assign(links.wide.size() + 1, 0);
+    each([&](std::uint32_t w, std::uint32_t, float) { ++links.first[w + 1]; });
+    for (std::size_t w = 1; w < links.first.size(); ++w) links.first[w] += links.first[w - 1];
+    links.sender.resize(links.first.back());
+    links.weight.resize(links.first.back());
+    std::vector<std::uint32_t> next(links.first.begin(), links.first.end() - 1);
+    each([&](std::uint32_t w, std::uint32_t j, float weight) {
+        links.sender[next[w]] = j;
+        links.weight[next[w]++] = weight;
+    });
+    return links;
+}
 
 GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
                      std::span<const std::uint32_t> senders, int threads)
@@ -362,8 +390,10 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
 
     std::vector<Four> sent(count + shared::kSkyBins + 1, Four{}), next(sent.size());
     for (std::uint32_t i = 0; i < count; ++i) sent[i] = own[i];
-    const SkyShares sky = sky_shares(patches, input);
-    const std::vector<Four> bright = by_reciprocity(patches, own, input.threads);
+    const StandingLinks found = input.standing != nullptr ? StandingLinks{} : standing_links(patches);
+    const StandingLinks& standing = input.standing != nullptr ? *input.standing : found;
+    const SkyShares sky = sky_shares(patches, standing, input);
+    const std::vector<Four> bright = by_reciprocity(patches, standing, own, input.threads);
     std::vector<Four> reflected(count);  // own, and of the sky above
     for (int s = 0; s < shared::kSkyBins; ++s) {
         const auto bin = static_cast<std::size_t>(s);

@@ -41,6 +41,21 @@ void add_sun(const Patches& patches, glm::vec3 towards_sun, glm::vec3 illuminanc
 std::vector<std::uint8_t> trace_lamp(const Patches& patches, const Tracer& tracer,
                                      glm::vec3 position_m, float range_m, int threads = 0);
 
+/// What no frame changes of what relight() asks of the links.
+///
+/// Small patches, as a wall beside a lamp, send more or less to wide ones than the rows of those say: of 128 rays one or
+/// none meets such a wall, or three do. Its own rays tell the same by reciprocity, A_i F_ij = A_j F_ji, the better the
+/// smaller it is: both together, each by its number of rays that are expected, have the least variance. Of cells in the open
+/// alone, whose area is all seen (of leaves some is within).
+struct StandingLinks {
+    std::vector<std::uint16_t> above;   ///< a leaf each: its rays that leave the scene above the horizon
+    std::vector<std::uint32_t> wide;    ///< leaves that stand in the open
+    std::vector<std::uint32_t> first;   ///< of each and one more: where its entries begin
+    std::vector<std::uint32_t> sender;  ///< of an entry: the smaller patch, once for each ray of one of the two that meets the other
+    std::vector<float> weight;          ///< less than 0 of its own rays, more than 0 of those of the smaller one
+};
+StandingLinks standing_links(const Patches& patches);
+
 struct Relight {
     std::span<const glm::vec3> albedo;    ///< a leaf, 0..1; held to 0.98
     std::span<const glm::vec3> direct;    ///< irradiance of a leaf from sun and lamps
@@ -49,6 +64,7 @@ struct Relight {
     std::span<const SkyTexel> sky_above = {};  ///< the same above the horizon, finer; empty: from the bins
     const GlowLinks* glow = nullptr;
     const NearLinks* near = nullptr;  ///< of these patches; for lookups that know them
+    const StandingLinks* standing = nullptr;  ///< of these patches; none: found each time
     std::span<const glm::vec3> near_albedo;    ///< of its sources, as albedo
     std::span<const glm::vec3> near_direct;    ///< irradiance of its sources from sun and lamps
     std::span<const glm::vec3> near_emission;  ///< radiosity of its sources by themselves; empty: none

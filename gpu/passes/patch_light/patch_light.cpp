@@ -110,6 +110,7 @@ void PatchLights::load(std::shared_ptr<const PatchScene> scene)
     }
     const scene::Patches& p = scene_->patches;
     rim_ = rim_of(p);
+    standing_ = scene::standing_links(p);
     const scene::LookupWays ways = scene::lookup_ways(p, &scene_->near);
     make_buffers(p.nodes(), ways.table.size(), ways.ways.size(),
                  std::max<std::size_t>(4 * scene_->near.entries(), 1));
@@ -218,6 +219,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     input.sky_above = sky_above;
     input.glow = &scene_->glow;
     input.near = &scene_->near;
+    input.standing = &standing_;
     input.near_albedo = look.near_albedo;
     input.near_direct = near_direct;
     input.near_emission = look.near_emission;

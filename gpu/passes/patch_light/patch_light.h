@@ -13,6 +13,7 @@
 #include "gpu/frame/patch_scene.h"
 #include "gpu/frame/sun.h"
 #include "gpu/passes/sky/sky.h"
+#include "scene/patches/radiosity.h"
 
 namespace petrichor::gpu {
 
@@ -62,6 +63,7 @@ private:
     std::unique_ptr<MemoryArena> arena_;
     std::unique_ptr<GpuBuffer> table_, ways_, planes_, irradiance_, gradient_, near_, sky_bins_;
     std::shared_ptr<const PatchScene> scene_;
+    scene::StandingLinks standing_;  ///< of its patches
     shared::PatchGrid grid_{};
     std::uint64_t loads_ = 0;
     std::vector<glm::vec3> radiosity_, rough_radiosity_;
