@@ -208,6 +208,8 @@ StandingLinks standing_links(const Patches& patches)
 {
     StandingLinks links;
     for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const auto turn = portable_sin_cos(6.283185307179586 * static_cast<double>(row_turn(cell_hash(patches.seed, patches.key[i]))));
+        links.turn.emplace_back(static_cast<float>(turn.cosine), static_cast<float>(turn.sine));
         const std::uint16_t* row = patches.row(i);
         links.above.push_back(static_cast<std::uint16_t>(
             std::count_if(row, row + patches.rays, [&](std::uint16_t link) { return leaves_above(patches, link); })));
@@ -453,11 +455,7 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
         if (all > 0.0f) {
             const glm::vec3 n = patches.normal[i];
             const Tangents f = tangents_of(n);
-            // The rays of this patch were turned about the normal.
-            const auto turn = portable_sin_cos(
-                6.283185307179586 *
-                static_cast<double>(row_turn(cell_hash(patches.seed, patches.key[i]))));
-            const auto c = static_cast<float>(turn.cosine), s = static_cast<float>(turn.sine);
+            const float c = standing.turn[i].x, s = standing.turn[i].y;
             const glm::vec3 by_rays = f.t * (moment[0] * c - moment[1] * s) +
                                       f.b * (moment[0] * s + moment[1] * c) + n * moment[2];
             g = gradient_of((by_rays + sky.moment[i] * from_above) / all, n);

@@ -49,6 +49,7 @@ std::vector<std::uint8_t> trace_lamp(const Patches& patches, const Tracer& trace
 /// alone, whose area is all seen (of leaves some is within).
 struct StandingLinks {
     std::vector<std::uint16_t> above;   ///< a leaf each: its rays that leave the scene above the horizon
+    std::vector<glm::vec2> turn;        ///< a leaf each: cosine and sine of how far its rays were turned about the normal
     std::vector<std::uint32_t> wide;    ///< leaves that stand in the open
     std::vector<std::uint32_t> first;   ///< of each and one more: where its entries begin
     std::vector<std::uint32_t> sender;  ///< of an entry: the smaller patch, once for each ray of one of the two that meets the other

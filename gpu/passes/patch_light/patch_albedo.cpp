@@ -9,6 +9,7 @@
 #include "formulas/weather/surface_weather.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/place_io.h"
+#include "scene/basins/water.h"
 #include "scene/material_table.h"
 
 namespace petrichor::gpu {
@@ -44,6 +45,7 @@ constexpr std::array<float, 4> kQuarters{0.543f, 0.665f, 0.75f, 0.867f};
 float mean_frost(float amount)
 {
     constexpr float kEdge = 0.125f;
+    if (!(amount > 0.0f)) return 0.0f;
     float sum = 0.0f;
     for (const float wide : kQuarters)
         for (const float fine : kQuarters)
@@ -129,12 +131,11 @@ bool belongs(const PlaceWeather* place, const scene::Patches& patches)
 }
 
 // Share of a patch that lies below the water of the hollow under it.
-float pond_over(const PlaceWeather* place, const scene::Patches& p, std::uint32_t i)
+float pond_over(const PlaceWeather& place, const scene::Patches& p, std::uint32_t i)
 {
-    if (place == nullptr || !place->shape) return 0.0f;
-    const PlaceShape& shape = *place->shape;
+    const PlaceShape& shape = *place.shape;
     const glm::vec3 n = p.normal[i];
-    if (shape.labels.empty() || n.y < 0.3f) return 0.0f;
+    if (n.y < 0.3f) return 0.0f;
     constexpr int kAcross = 4;
     const float size_m = p.level_cell_m(scene::level_of(p.key[i]));
     float sum = 0.0f, all = 0.0f;
@@ -151,11 +152,21 @@ float pond_over(const PlaceWeather* place, const scene::Patches& p, std::uint32_
                                                  static_cast<std::size_t>(cell.x)];
         if (label == 0 || label == 0xffffffffu) continue;
         const float height_m = p.position_m[i].y - (n.x * way.x + n.z * way.y) / n.y;
-        const float depth_m = place->levels_m[label] - height_m;
+        const float depth_m = place.levels_m[label] - height_m;
         // As pixels take it (gpu/frame/place.glsl, cover.glsl).
         if (depth_m < 2.0f) sum += shared::smooth_edge(0.0f, 0.002f, depth_m);
     }
     return sum / std::max(all, 1.0f);
+}
+
+// Of each patch; none where no hollow has water.
+std::vector<float> ponds_over(const PlaceWeather* place, const scene::Patches& p)
+{
+    if (place == nullptr || !place->shape || place->shape->labels.empty()) return {};
+    if (std::none_of(place->levels_m.begin() + 1, place->levels_m.end(), [](float level_m) { return level_m > scene::kDry_m; })) return {};
+    std::vector<float> ponds(p.count);
+    for (std::uint32_t i = 0; i < p.count; ++i) ponds[i] = pond_over(*place, p, i);
+    return ponds;
 }
 
 // A factor now over what it was when the patches were coloured; what was 0 stays as it is.
@@ -200,12 +211,13 @@ struct Looks {
     bool shelter;
     std::vector<Material> materials;
     const PlaceWeather* place;    // null: not of these patches
-    const PlaceWeather* hollows;
+    std::vector<float> ponds;
     glm::vec3 rain;
+
+    float pond(std::uint32_t patch) const { return ponds.empty() ? 0.0f : ponds[patch]; }
 
     Look of(const Surface& surface) const
     {
-        const scene::Patches& p = scene.patches;
         const Material& material = materials[surface.material];
         const Material& before = scene.materials[surface.material];
         const MaterialWeather& m = material.weather;
@@ -235,13 +247,13 @@ struct Looks {
             const glm::vec4* texels = &place->states[std::size_t{surface.patch} * PLACE_STATE_TEXELS];
             now = shared::apply_weather(
                 dry,
-                state_of_place(m, weather, snow_line, texels, pond_over(place, p, surface.patch)),
+                state_of_place(m, weather, snow_line, texels, pond(surface.patch)),
                 closed, look);
         } else if (!m.sheltered && any_weather(weather, m)) {
             const float open = shelter ? scene::visible_share(surface.visible, rain) : 1.0f;
             shared::SurfaceState state = state_of(m, weather, snow_line, surface.normal.y, open);
             if (m.wetness != Wetness::None)
-                state.water = std::max(state.water, pond_over(hollows, p, surface.patch));
+                state.water = std::max(state.water, pond(surface.patch));
             now = shared::apply_weather(dry, state, weather, look);
         }
         const float mirrored = std::max({now.specular.x, now.specular.y, now.specular.z});
@@ -265,7 +277,8 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
                       look,    shelter,
                       changed(scene.materials, changes),
                       belongs(place, p) ? place : nullptr,
-                      place,   against_rain(weather.wind_m_s)};
+                      ponds_over(place, p),
+                      against_rain(weather.wind_m_s)};
     PatchLook result;
     result.albedo.reserve(p.count);
     result.emission.reserve(p.count);
