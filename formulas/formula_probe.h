@@ -34,6 +34,7 @@
 #include "formulas/light/patch_cells.h"
 #include "formulas/light/rain_clouds.h"
 #include "formulas/light/rain_curtains.h"
+#include "formulas/light/skyline.h"
 #include "formulas/light/reflection_probe.h"
 #include "formulas/light/seen_lobe.h"
 #include "formulas/light/second_lobe.h"
@@ -74,7 +75,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 85;
+SHARED_CONST int kProbeKinds = 86;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)

@@ -476,6 +476,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     const bool any = settings.any_light;
     variant.sun = any || sun.illuminance != glm::vec3(0.0f);
     variant.background = settings.draw_sky;
+    if (!r.environment && frame.sky.skyline_from_m >= 0.0f) variant.skyline_from_m = frame.sky.skyline_from_m;
     variant.shadows = settings.shadows && variant.sun;
     variant.image_based_light = settings.image_based_light;
     variant.mirrors_picture = settings.reflections;

@@ -38,7 +38,7 @@ void add_lens(Hasher& hasher, const gpu::Frame& frame)
 
 void add_sky(Hasher& hasher, const gpu::Sky& sky)
 {
-    static_assert(sizeof(gpu::Sky) == 17 * sizeof(float), "hash the new field too");
+    static_assert(sizeof(gpu::Sky) == 18 * sizeof(float), "hash the new field too");
     for (const float value :
          {sky.sun_elevation_rad, sky.sun_azimuth_rad, sky.sun_illuminance, sky.cloud_cover,
           sky.turbidity, sky.ground_albedo, sky.environment_scale, sky.environment_rotation_rad,
@@ -49,6 +49,7 @@ void add_sky(Hasher& hasher, const gpu::Sky& sky)
     if (sky.sun_shadow_strength != 1.0f) hasher.add(sky.sun_shadow_strength);
     hasher.add(sky.analytic_sun);
     hasher.add(sky.land_as_ground);
+    if (sky.skyline_from_m >= 0.0f) hasher.add(sky.skyline_from_m);
 }
 
 void add_cookie(Hasher& hasher, const gpu::SunCookie& cookie)

@@ -30,6 +30,14 @@ float narrow(double value)
     return static_cast<float>(value);
 }
 
+// Where what stands at the horizon begins: behind all of the scene. Scenes that are a landscape themselves have none around them.
+float skyline_from_m(const scene::Bounds& scene)
+{
+    constexpr float kLandscape_m = 2500.0f;
+    const float reach_m = 0.5f * glm::length(glm::vec2(scene.high.x - scene.low.x, scene.high.z - scene.low.z));
+    return reach_m < kLandscape_m ? 1.2f * reach_m : -1.0f;
+}
+
 // 1 with the sun low, 0 with it high.
 double lamp_scale(const ScenarioLights& lights, double sun_elevation_rad)
 {
@@ -212,6 +220,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
             illuminance_of_scene(sequence.scene, out.sky).value_or(out.sky.sun_illuminance);
     out.sky.ground_albedo = narrow(here.sky.ground_albedo);
     out.sky.land_as_ground = here.sky.land_as_ground;
+    if (here.sky.skyline) out.sky.skyline_from_m = skyline_from_m(sequence.framing.bounds);
     out.sky.environment_scale = narrow(here.sky.environment_scale);
     out.sky.environment_rotation_rad = narrow(here.sky.environment_rotation_degrees * kPi / 180.0);
     out.sky.analytic_sun = !here.sun.from_scene;

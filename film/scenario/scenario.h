@@ -109,6 +109,7 @@ struct ScenarioSky {
     double environment_rotation_degrees = 0.0;
     double ground_albedo = 0.2;
     bool land_as_ground = true;  ///< where ground_albedo is not given
+    bool skyline = true;  ///< trees and hills where the land of the computed sky ends
 };
 
 /// [moon]: keys win over what place and clock say.

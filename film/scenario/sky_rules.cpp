@@ -77,6 +77,10 @@ std::vector<Rule> sky_rules()
              s.sky.ground_albedo = v.number(0.0, 1.0);
              s.sky.land_as_ground = false;
          }},
+        {{"sky", "skyline", "true",
+          "trees, woods and low hills stand where the land beyond the scene ends, behind all of the scene; not under "
+          "an environment and not around scenes of more than 2.5 km"},
+         [](Scenario& s, const TomlValue& v) { s.sky.skyline = v.boolean(); }},
 
         {{"moon", "elevation_degrees", "40.0",
           "height above the horizon, -90 to 90; without it where a weather file's place and clock "

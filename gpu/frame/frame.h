@@ -38,6 +38,7 @@ struct Sky {
     float sun_shadow_strength = 1.0f;  ///< 0..1: share of the light that shadows of sun or moon take away
     bool analytic_sun = true;  ///< false: the scene's own directional lights replace the sun
     bool land_as_ground = true;  ///< the land that is seen goes on from the ground at the scene's rim, where patches light it
+    float skyline_from_m = -1.0f;  ///< trees and hills stand from here on where the land of the computed sky ends; negative: none do
     float moon_elevation_rad = -1.0f;
     float moon_azimuth_rad = 0.0f;  ///< as the sun's
     float moon_lux = 0.0f;          ///< above the air, on a plane that faces it; 0: there is none

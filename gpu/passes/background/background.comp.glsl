@@ -18,6 +18,8 @@ layout(constant_id = BACKGROUND_SPEC_NIGHT) const uint NIGHT = 1u;
 layout(constant_id = BACKGROUND_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = BACKGROUND_SPEC_PARTS) const uint PARTS = 0u;
 layout(constant_id = BACKGROUND_SPEC_MIRRORED) const uint MIRRORED = 1u;
+layout(constant_id = BACKGROUND_SPEC_SKYLINE) const uint SKYLINE = 0u;
+layout(push_constant, scalar) uniform Push { BackgroundParams params; };
 layout(binding = BACKGROUND_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = BACKGROUND_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = BACKGROUND_SKY) uniform samplerCube sky_map;
@@ -28,6 +30,7 @@ layout(binding = BACKGROUND_PARTS, rgba32f) uniform image2DArray light_parts;
 const uint GUSTS = 0u;
 #include "gpu/frame/air.glsl"
 #include "gpu/passes/lighting/light_parts.glsl"
+#include "gpu/passes/background/skyline.glsl"
 #include "gpu/passes/sky/night.glsl"
 
 // Where the sky's map is asked in a direction over the horizon: no lower than the middle of its first row, below which
@@ -43,7 +46,9 @@ vec3 land_behind_air(vec3 radiance, vec3 direction)
 {
     if ((frame.flags & FRAME_LAND) == 0u || direction.y >= 0.0) return radiance;
     // Where the ground of the scene goes on it is that ground, told without air; near the horizon the sky's own.
-    const float below = smoothstep(0.0, 0.02, -direction.y);
+    // What stands on the land hides that seam, and needs land to stand on.
+    const float soft = SKYLINE != 0u ? 0.002 : 0.02;
+    const float below = smoothstep(0.0, soft, -direction.y);
     const float known = frame.land.w * below;
     vec3 level = vec3(0.0);
     if (FOG != 0u) {
@@ -51,7 +56,10 @@ vec3 land_behind_air(vec3 radiance, vec3 direction)
         level = textureLod(sky_map, over_horizon(vec3(direction.x, 0.0, direction.z)), 0.0).rgb;
         radiance = mix(level * frame.sky_scale, radiance, below);
     }
-    radiance = mix(radiance, frame.land.rgb, known);
+    vec3 land = frame.land.rgb;
+    // Wet land mirrors the sky where it is seen along its surface, as the ground before it does; how much is ours, by eye.
+    if (SKYLINE != 0u) land += textureLod(sky_map, air_level(direction), kAirMip).rgb * frame.sky_scale * (0.15 * frame.weather.film_smoothness * pow(1.0 + direction.y, 24.0));
+    radiance = mix(radiance, land, known);
     if (FOG == 0u) return radiance;
     const float path_m =
         fog_path_to_land(direction.y, frame.camera_m.y - frame.fog_base_m, frame.fog_height_m) -
@@ -62,7 +70,7 @@ vec3 land_behind_air(vec3 radiance, vec3 direction)
                                 frame.fog_end_m) * exp(drawn);
     // At the horizon the air is that of the sky above it; below, that of what stands on the land.
     const vec3 veil = mix(level, textureLod(sky_map, air_level(direction), kAirMip).rgb,
-                          smoothstep(0.0, 0.04, -direction.y));
+                          smoothstep(0.0, 2.0 * soft, -direction.y));
     return mix(veil * frame.sky_scale, radiance, min(kept, 1.0));
 }
 
@@ -110,6 +118,7 @@ vec3 background(vec3 direction)
             radiance += frame.sun_illuminance * (sky.a / solid_angle);
         }
     }
+    if (SKYLINE != 0u) radiance = before_skyline(radiance, direction, params.skyline_from_m);
     return radiance;
 }
 

@@ -15,7 +15,8 @@ void add_background(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky, cons
                                    {BACKGROUND_SPEC_NIGHT, variant.night},
                                    {BACKGROUND_SPEC_FOG, variant.fog},
                                    {BACKGROUND_SPEC_PARTS, variant.split},
-                                   {BACKGROUND_SPEC_MIRRORED, variant.image_based_light}},
+                                   {BACKGROUND_SPEC_MIRRORED, variant.image_based_light},
+                                   {BACKGROUND_SPEC_SKYLINE, variant.skyline_from_m.has_value()}},
                      .bindings = {{BACKGROUND_FRAME, frame_binding(constants)},
                                   {BACKGROUND_DEPTH_ROWS, texels(*targets.rows.depth)},
                                   {BACKGROUND_SKY, sampled(*sky.cube, sky.linear)},
@@ -23,7 +24,7 @@ void add_background(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky, cons
                                   {BACKGROUND_ACCUMULATED, storage(*targets.accumulated)},
                                   {BACKGROUND_RADIANCE, storage(*targets.radiance)},
                                   {BACKGROUND_PARTS, storage(*variant.parts)}},
-                     .push = {},
+                     .push = PushBlock(shared::BackgroundParams{variant.skyline_from_m.value_or(0.0f)}),
                      .groups = {}};
     add_over_tiles(graph, targets, std::move(pass), targets.open_tiles, variant.pixels);
 }

@@ -2,6 +2,8 @@
 #ifndef PETRICHOR_GPU_PASSES_BACKGROUND_BACKGROUND_IO_H
 #define PETRICHOR_GPU_PASSES_BACKGROUND_BACKGROUND_IO_H
 
+#include "base/interop.h"
+
 #define BACKGROUND_TILE 8
 
 #define BACKGROUND_FRAME 0
@@ -18,5 +20,14 @@
 #define BACKGROUND_SPEC_FOG 2
 #define BACKGROUND_SPEC_PARTS 3    // the light is written taken apart, too
 #define BACKGROUND_SPEC_MIRRORED 4 // surfaces may mirror it
+#define BACKGROUND_SPEC_SKYLINE 5  // trees and hills where the land ends
+
+SHARED_BEGIN
+
+struct BackgroundParams {
+    float skyline_from_m;  // nothing of the skyline stands nearer to the camera
+};
+
+SHARED_END
 
 #endif

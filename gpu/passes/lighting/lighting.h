@@ -1,6 +1,8 @@
 #ifndef PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 #define PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 
+#include <optional>
+
 #include "gpu/frame/pixel_list.h"
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
@@ -36,6 +38,7 @@ struct LightingVariant {
     bool gusts = false;       ///< the fog is thick in places
     bool sun = true;          ///< it shines
     bool background = true;   ///< the sky is seen where there is no surface
+    std::optional<float> skyline_from_m;  ///< Sky::skyline_from_m, where there is one
     bool lazarov = false;     ///< FrameSettings::lazarov
     bool horizon = false;     ///< of the mesh
     bool grain = false;       ///< FrameSettings::anisotropic_dither
