@@ -14,7 +14,7 @@
 SHARED_BEGIN
 
 SHARED_CONST int kSkylineRows = 5;
-SHARED_CONST float kSkylineEnds = 0.06f;  // rise over one metre of way from which on there is only sky, for an eye on the ground or above
+SHARED_CONST float kSkylineEnds = 0.03f;  // rise over one metre of way from which on there is only sky, for an eye on the ground or above
 SHARED_CONST float kEarthDrop_m = 14.7e6f;  // the square of a way over how far the land falls away on it, with the bending of light by the air
 
 struct SkylineRow {
@@ -54,11 +54,17 @@ SHARED_FN float skyline_angle(vec2 ahead)
 SHARED_FN vec2 skyline_tops(SkylineRow row, vec2 ahead, float width_m, uint seed)
 {
     const vec2 at = ahead * row.away_m;
-    const float broad = 0.65f * endless_noise(at / 2300.0f + splat2(7.0f), seed) + 0.35f * endless_noise(at / 760.0f, seed + 1u);
-    const float hill = row.hills_m * smooth_edge(0.2f, 0.9f, broad);
-    const float spread = 0.65f * endless_noise(at / 130.0f, seed + 2u) + 0.35f * endless_noise(at / 37.0f, seed + 3u);
-    const float bare = 0.5f + 0.62f * (0.5f - row.grown);
-    const float grown = row.grown >= 1.0f ? 1.0f : smooth_edge(bare - 0.05f, bare + 0.05f, spread);
+    float hill = 0.0f;
+    if (row.hills_m > 0.0f) {
+        const float broad = 0.65f * endless_noise(at / 2300.0f + splat2(7.0f), seed) + 0.35f * endless_noise(at / 760.0f, seed + 1u);
+        hill = row.hills_m * smooth_edge(0.2f, 0.9f, broad);
+    }
+    float grown = 1.0f;
+    if (row.grown < 1.0f) {
+        const float spread = 0.65f * endless_noise(at / 130.0f, seed + 2u) + 0.35f * endless_noise(at / 37.0f, seed + 3u);
+        const float bare = 0.5f + 0.62f * (0.5f - row.grown);
+        grown = smooth_edge(bare - 0.05f, bare + 0.05f, spread);
+    }
     // A whole number of them goes around.
     const float around = floor(2.0f * kPi * row.away_m / row.crown_m);
     const float u = (skyline_angle(ahead) / (2.0f * kPi) + 0.5f) * around;

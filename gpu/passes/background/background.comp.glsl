@@ -9,6 +9,7 @@
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/background/background_io.h"
+#include "gpu/passes/sky/sky_light_io.h"
 #define PIXEL_LIST_BINDING BACKGROUND_PIXELS
 #include "gpu/frame/pixel_list.glsl"
 
@@ -25,6 +26,7 @@ layout(binding = BACKGROUND_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = BACKGROUND_SKY) uniform samplerCube sky_map;
 layout(binding = BACKGROUND_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = BACKGROUND_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
+layout(binding = BACKGROUND_SKY_LIGHT, scalar) uniform Light { SkyLight sky_light; };
 layout(binding = BACKGROUND_PARTS, rgba32f) uniform image2DArray light_parts;
 
 const uint GUSTS = 0u;

@@ -23,7 +23,8 @@ void add_background(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky, cons
                                   {BACKGROUND_PIXELS, texels(pixels_of(targets, targets.open_tiles, variant.pixels))},
                                   {BACKGROUND_ACCUMULATED, storage(*targets.accumulated)},
                                   {BACKGROUND_RADIANCE, storage(*targets.radiance)},
-                                  {BACKGROUND_PARTS, storage(*variant.parts)}},
+                                  {BACKGROUND_PARTS, storage(*variant.parts)},
+                                  {BACKGROUND_SKY_LIGHT, sky_light_binding(sky)}},
                      .push = PushBlock(shared::BackgroundParams{variant.skyline_from_m.value_or(0.0f)}),
                      .groups = {}};
     add_over_tiles(graph, targets, std::move(pass), targets.open_tiles, variant.pixels);

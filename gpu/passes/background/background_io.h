@@ -13,6 +13,7 @@
 #define BACKGROUND_ACCUMULATED 4
 #define BACKGROUND_RADIANCE 5
 #define BACKGROUND_PARTS 6
+#define BACKGROUND_SKY_LIGHT 7
 
 // Specialization constants: 0 leaves the part out of the compiled shader.
 #define BACKGROUND_SPEC_SKY 0      // 0: black
