@@ -405,6 +405,34 @@ TEST(Blocks, RefusesWithTheReason)
     EXPECT_THROW(decode_blocks(few, Block::Bc1, 0, 4), Error);
 }
 
+// Data without alpha: 254 in its place lets the other channels come closer. Colours stay opaque.
+TEST(Blocks, Bc7TakesNoHeedOfAnAlphaThatNobodyReads)
+{
+    const RawImage brightness = material(64, 64, 1, 5);
+    RawImage grey{64, 64, 3, PixelType::U8, {}, {}}, opaque{64, 64, 4, PixelType::U8, {}, {}};
+    for (const std::byte byte : brightness.bytes) {
+        const std::byte v = static_cast<std::byte>(96 + std::to_integer<int>(byte) / 4);  // a few steps of the line apart, where ends decide
+        grey.bytes.insert(grey.bytes.end(), {v, v, v});
+        opaque.bytes.insert(opaque.bytes.end(), {v, v, v, std::byte{255}});
+    }
+    const auto there_and_back = [](const RawImage& image, bool srgb) {
+        return decode_blocks(encode_blocks(image, Block::Bc7, {.srgb = srgb}), Block::Bc7, image.width, image.height);
+    };
+    const auto see_through = [](const RawImage& image) {
+        int count = 0;
+        for (std::size_t i = 3; i < image.bytes.size(); i += 4) {
+            EXPECT_GE(std::to_integer<int>(image.bytes[i]), 254);
+            count += image.bytes[i] != std::byte{255};
+        }
+        return count;
+    };
+    const RawImage data = there_and_back(grey, false), color = there_and_back(grey, true);
+    EXPECT_LT(error(grey, data, 3), 0.9 * error(grey, color, 3));
+    EXPECT_GT(see_through(data), 64 * 64 / 10);
+    EXPECT_LT(see_through(color), 64 * 64 / 12);
+    EXPECT_EQ(there_and_back(opaque, false).bytes, color.bytes) << "an alpha of its own counts";
+}
+
 // The corner of a map, 128 x 128.
 RawImage corner(const std::filesystem::path& path)
 {

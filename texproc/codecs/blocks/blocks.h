@@ -54,7 +54,9 @@ struct BlockOptions {
     /// Weight of the squared error of each channel. Data maps: equal. Alpha counts like the others.
     std::array<float, 4> weights{1.0f, 1.0f, 1.0f, 1.0f};
     bool punch_through = false;  ///< BC1: alpha below one half becomes transparent black
-    bool srgb = false;           ///< ASTC: the codes are sRGB
+    /// The codes are sRGB: ASTC rounds so. BC7 keeps colours opaque that have no alpha; of other images without alpha,
+    /// data, it may store 254, as nobody reads it, for closer channels.
+    bool srgb = false;
     bool is_signed = false;      ///< BC6H: negative numbers are kept
     /// All but BC6H and ASTC: error for size. Blocks repeat bytes of blocks before them where that
     /// costs less than this (squared error of 16 texels, mean over the channels, a bit saved), so

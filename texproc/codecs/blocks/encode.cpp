@@ -101,6 +101,9 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                     "Use BC1, BC3, BC4, BC5, BC7 or UASTC, or leave it out.");
     }
     if (format.astc) return detail::encode_astc(image, format.side, options);
+    // An alpha that data do not have is read by nobody, and 254 in its place frees the low bits of ends (mode 6).
+    BlockOptions chosen = options;
+    if (block == Block::Bc7 && image.channels < 4 && !options.srgb) chosen.weights[3] = 0.0f;
     std::vector<std::byte> bytes(blocks_size(block, image.width, image.height));
     const int across = (image.width + 3) / 4;
     parallel_for(static_cast<std::size_t>((image.height + 3) / 4), options.threads,
@@ -113,7 +116,7 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                              format.encode_halves(gather_halves(image, bx, y), options,
                                                   options.is_signed, to);
                          } else {
-                             format.encode(gather(image, bx, y), options, to);
+                             format.encode(gather(image, bx, y), chosen, to);
                          }
                      }
                  });
