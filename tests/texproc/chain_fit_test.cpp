@@ -122,6 +122,76 @@ TEST(ChainFitKernel, TwoLobesShadeAsTheyDoOnTheFloor)
     }
 }
 
+// The first step of Adam goes by the rate, whatever the slope, but for slopes as small as what it is kept from 0 by. Both
+// instruction sets take it alike, to the bit, and so the next ones.
+TEST(ChainFitKernel, MovesAsAdamDoes)
+{
+    constexpr float kRate = 0.01f, kScale = 0.5f, kLeast = 0.02f, kFull = 1.0f - 0.9f, kFullSquare = 1.0f - 0.99f;
+    constexpr std::size_t kCount = 5;
+    struct Maps {
+        std::vector<FitTexel> texels{kCount, {{0.6f, 0.0f, 0.8f}, 0.5f, 0.7f, 0.4f, 0.3f, 9.0f}};
+        std::vector<FitSlope> mean{kCount, FitSlope{}}, square = mean;
+        std::vector<FitLobe> second{kCount, {{0.0f, 0.6f, 0.8f}, 0.25f}}, second_mean{kCount, FitLobe{}}, second_square = second_mean;
+        std::vector<FitSlope> slopes[kFitSlots];
+        std::vector<FitLobe> second_slopes[kFitSlots];
+        void step(const ChainFitKernel& kernel, const FitMove& how)
+        {
+            FitMoved level{texels.data(), mean.data(), square.data(), second.data(), second_mean.data(), second_square.data(), {}, {}};
+            for (std::size_t k = 0; k < kFitSlots; ++k) {
+                const float v = static_cast<float>(k) + 0.25f;
+                slopes[k].assign(kCount, {{v, -v, 0.5f * v}, -2.0f * v, v, 0.001f * v, -v, 0.0f});
+                second_slopes[k].assign(kCount, {{v, v, -v}, v});
+                level.slopes[k] = slopes[k].data();
+                level.second_slopes[k] = second_slopes[k].data();
+            }
+            kernel.move(how, level, static_cast<int>(kCount));
+        }
+    };
+    FitMove how{kRate, kScale, 0.9f, 0.99f, kFull, kFullSquare, kLeast, true, true, true, true};
+    Maps maps;
+    maps.step(kChainFitKernelBase, how);
+    const auto moved = [&](float at, float slope) {
+        const float g = kScale * 7.0f * slope;  // the four slots hold 7 together
+        return at - kRate * g / (std::abs(g) + 1e-3f);
+    };
+    const auto unit = [](float x, float y, float z) { return glm::normalize(glm::vec3(x, y, z)); };
+    const FitTexel& t = maps.texels.back();
+    const glm::vec3 n = unit(moved(0.6f, 1.0f), moved(0.0f, -1.0f), moved(0.8f, 0.5f));
+    const FitLobe& lobe = maps.second.back();
+    const glm::vec3 m = unit(moved(0.0f, 1.0f), moved(0.6f, 1.0f), moved(0.8f, -1.0f));
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(t.n[c], n[c], 1e-6f);
+        EXPECT_NEAR(lobe.n[c], m[c], 1e-6f);
+    }
+    EXPECT_NEAR(t.stored, moved(0.5f, -2.0f), 1e-6f);
+    EXPECT_NEAR(t.metal, moved(0.4f, 1.0f), 1e-6f);
+    EXPECT_NEAR(t.of_second, moved(0.3f, 0.001f), 1e-6f);
+    EXPECT_NEAR(t.share, moved(0.7f, -1.0f), 1e-6f);
+    EXPECT_NEAR(lobe.stored, moved(0.25f, 1.0f), 1e-6f);
+    EXPECT_EQ(t.none, 9.0f);
+    for (const auto& slot : maps.slopes) EXPECT_EQ(slot.back().stored, 0.0f) << "taken";
+    for (const auto& slot : maps.second_slopes) EXPECT_EQ(slot.back().n[1], 0.0f) << "taken";
+    // What does not move stays.
+    Maps still;
+    how.joint = how.metal = how.second = how.paint = false;
+    still.step(kChainFitKernelBase, how);
+    EXPECT_EQ(still.texels.back().stored, t.stored);
+    EXPECT_EQ(still.texels.back().n[0], 0.6f);
+    EXPECT_EQ(still.texels.back().metal, 0.4f);
+    EXPECT_EQ(still.second.back().stored, 0.25f);
+#if defined(__x86_64__)
+    if (!__builtin_cpu_supports("avx2")) return;
+    how.joint = how.metal = how.second = how.paint = true;
+    Maps base, wide;
+    for (int step = 0; step < 5; ++step) {
+        base.step(kChainFitKernelBase, how);
+        wide.step(kChainFitKernelAvx2, how);
+    }
+    EXPECT_EQ(std::memcmp(base.texels.data(), wide.texels.data(), kCount * sizeof(FitTexel)), 0);
+    EXPECT_EQ(std::memcmp(base.second.data(), wide.second.data(), kCount * sizeof(FitLobe)), 0);
+#endif
+}
+
 // A view of two levels with noise on them.
 struct Scene {
     FitView view{};

@@ -22,7 +22,7 @@ constexpr std::size_t kMostTexels = 256 * 256;
 constexpr int kLeastSide = 8;
 // Of a level: pixels drawn for each texel, of one lobe and of two, steps of a pass.
 constexpr std::size_t kPixelsPerTexel = 30, kPixelsOfTwo = 60, kSteps = 250;
-constexpr std::size_t kSlots = 4;  // slopes are summed apart: the sums do not depend on threads
+constexpr std::size_t kSlots = kFitSlots;
 // Two fits in turn, the second from the first: bold, then careful, in which a picture that is worse
 // than that of plain mips counts more, in full where it is worse by kClearlyWorse.
 struct Stage {
@@ -60,7 +60,6 @@ private:
                 is_fitted(k) ? second_slopes : nullptr};
     }
     void start_two(std::size_t k);
-    void move_second(std::size_t k, std::size_t i, std::size_t slot_offset, const auto& moved);
     void draw();
     FitErrors errors(const FitPool& pool, const FitPicture& picture, bool plain) const;
     void weigh(FitPool& pool, const FitPicture& picture, float worse) const;
@@ -239,66 +238,22 @@ void ChainFit::move(std::size_t k, std::size_t slot_offset, std::size_t pixels, 
                 full_square = 1.0f - portable_pow(kKeepSquare, n);
     const float scale = static_cast<float>(texels_[k].size()) / static_cast<float>(pixels);
     constexpr std::size_t kBlock = 4096;
-    parallel_for(
-        (texels_[k].size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
-            const std::size_t end = std::min((block + 1) * kBlock, texels_[k].size());
-            for (std::size_t i = block * kBlock; i < end; ++i) {
-                float slope[7] = {};
-                for (std::vector<FitSlope>& slot : slopes_) {
-                    FitSlope& s = slot[slot_offset + i];
-                    for (int c = 0; c < 3; ++c) slope[c] += s.n[c];
-                    slope[3] += s.stored, slope[4] += s.metal, slope[5] += s.of_second, slope[6] += s.share;
-                    s = {};
-                }
-                FitSlope &mean = mean_[k][i], &square = square_[k][i];
-                FitTexel& t = texels_[k][i];
-                const auto moved = [&](float at, float g, float& m, float& s) {
-                    g *= scale;
-                    m = kKeep * m + (1.0f - kKeep) * g;
-                    s = kKeepSquare * s + (1.0f - kKeepSquare) * g * g;
-                    return at - rate * (m / full) / (std::sqrt(s / full_square) + 1e-3f);
-                };
-                t.stored =
-                    std::clamp(moved(t.stored, slope[3], mean.stored, square.stored), 0.0f, 1.0f);
-                if (!options_.joint) continue;
-                if (colors_metal_)
-                    t.metal = std::clamp(
-                        moved(t.metal, slope[4], mean.metal, square.metal), 0.0f, 1.0f);
-                float square_length = 0.0f;
-                for (int c = 0; c < 3; ++c) {
-                    t.n[c] = moved(t.n[c], slope[c], mean.n[c], square.n[c]);
-                    square_length += t.n[c] * t.n[c];
-                }
-                const float length = std::sqrt(std::max(square_length, 1e-12f));
-                for (float& n_c : t.n) n_c /= length;
-                if (!two()) continue;
-                t.of_second = std::clamp(moved(t.of_second, slope[5], mean.of_second, square.of_second),
-                                         kLeastLobe, 1.0f - kLeastLobe);
-                if (colors_paint_)
-                    t.share = std::clamp(moved(t.share, slope[6], mean.share, square.share), 0.0f, 1.0f);
-                move_second(k, i, slot_offset, moved);
-            }
-        });
-}
-
-void ChainFit::move_second(std::size_t k, std::size_t i, std::size_t slot_offset, const auto& moved)
-{
-    FitLobe slope{};
-    for (std::vector<FitLobe>& slot : second_slopes_) {
-        FitLobe& s = slot[slot_offset + i];
-        for (int c = 0; c < 3; ++c) slope.n[c] += s.n[c];
-        slope.stored += s.stored;
-        s = {};
-    }
-    FitLobe &t = second_[k][i], &mean = second_mean_[k][i], &square = second_square_[k][i];
-    t.stored = std::clamp(moved(t.stored, slope.stored, mean.stored, square.stored), 0.0f, 1.0f);
-    float square_length = 0.0f;
-    for (int c = 0; c < 3; ++c) {
-        t.n[c] = moved(t.n[c], slope.n[c], mean.n[c], square.n[c]);
-        square_length += t.n[c] * t.n[c];
-    }
-    const float length = std::sqrt(std::max(square_length, 1e-12f));
-    for (float& n_c : t.n) n_c /= length;
+    const FitMove how{rate, scale, kKeep, kKeepSquare, full, full_square, kLeastLobe,
+                      options_.joint, colors_metal_, two(), colors_paint_};
+    parallel_for((texels_[k].size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
+        const std::size_t first = block * kBlock, end = std::min(first + kBlock, texels_[k].size());
+        FitMoved level{&texels_[k][first], &mean_[k][first], &square_[k][first], nullptr, nullptr, nullptr, {}, {}};
+        if (two()) {
+            level.second = &second_[k][first];
+            level.second_mean = &second_mean_[k][first];
+            level.second_square = &second_square_[k][first];
+        }
+        for (std::size_t slot = 0; slot < kSlots; ++slot) {
+            level.slopes[slot] = &slopes_[slot][slot_offset + first];
+            if (two()) level.second_slopes[slot] = &second_slopes_[slot][slot_offset + first];
+        }
+        chain_fit_kernel().move(how, level, static_cast<int>(end - first));
+    });
 }
 
 void ChainFit::step(const FitPool& pool, const std::vector<std::size_t>& views, float rate)

@@ -9,6 +9,7 @@
 namespace petrichor::texproc::detail {
 
 inline constexpr int kFitLights = 8;
+inline constexpr int kFitMostTaps = 16;
 inline constexpr int kFitFrames = 2;  // of a pixel: two places that it sees one after the other
 
 /// An eye far away and the lights that it is tried with. Paint and metal as in lit_floor.h.
@@ -56,7 +57,7 @@ struct FitView {
     float exposure[kFitLights];
     float weight[kFitLights];   ///< of squared errors
     float flicker[kFitLights];  ///< of the squares of what differs between the moments of a pixel
-    int taps;
+    int taps;  ///< 1 to kFitMostTaps
     float step_u,
         step_v;   ///< from one sample of the filter to the next, of the map's width and height
     float share;  ///< of the coarser level
@@ -67,6 +68,22 @@ struct FitView {
 struct FitPixel {
     float u, v;
     std::uint16_t shown[kFitLights];
+};
+
+/// A step of Adam for the texels of a level; `full` and `full_square`: what its means lack at the start.
+struct FitMove {
+    float rate, scale, keep, keep_square, full, full_square;
+    float least_second;                 ///< the share of either lobe stays above
+    bool joint, metal, second, paint;   ///< what moves beside roughness: normals; and with them these
+};
+inline constexpr int kFitSlots = 4;  ///< slopes are summed apart: the sums do not depend on threads
+/// Of a level, from one of its texels on; second...: null with one lobe.
+struct FitMoved {
+    FitTexel* texels;
+    FitSlope *mean, *square;
+    FitLobe *second, *second_mean, *second_square;
+    FitSlope* slopes[kFitSlots];
+    FitLobe* second_slopes[kFitSlots];
 };
 
 struct ChainFitKernel {
@@ -81,6 +98,8 @@ struct ChainFitKernel {
     /// count: a multiple of kFitFrames.
     void (*add_slopes)(const FitView& view, const FitMeaning& meaning, const FitLevel& fine,
                        const FitLevel& coarse, const FitPixel* pixels, int count);
+    /// Moves `count` texels downhill and takes their slopes back to 0.
+    void (*move)(const FitMove& how, const FitMoved& level, int count);
 };
 
 /// The kernel for this processor.

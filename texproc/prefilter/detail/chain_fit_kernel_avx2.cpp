@@ -2,6 +2,6 @@
 
 namespace petrichor::texproc::detail {
 
-const ChainFitKernel kChainFitKernelAvx2{mean_light, seen, add_slopes};
+const ChainFitKernel kChainFitKernelAvx2{mean_light, seen, add_slopes, move};
 
 }  // namespace petrichor::texproc::detail

@@ -2,7 +2,7 @@
 
 namespace petrichor::texproc::detail {
 
-const ChainFitKernel kChainFitKernelBase{mean_light, seen, add_slopes};
+const ChainFitKernel kChainFitKernelBase{mean_light, seen, add_slopes, move};
 
 const ChainFitKernel& chain_fit_kernel()
 {

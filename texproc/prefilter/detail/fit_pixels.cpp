@@ -73,9 +73,11 @@ void expose(FitPool& pool, const FitPicture& picture, std::size_t pixels, const 
     std::vector<float> sorted(light.size() / kFitLights);
     for (std::size_t l = 0; l < kFitLights; ++l) {
         for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = light[i * kFitLights + l];
-        std::sort(sorted.begin(), sorted.end());
-        const float middle = std::max(sorted[sorted.size() / 2], 1e-6f);
-        const float bright = std::max(sorted[sorted.size() * 97 / 100], 1e-6f);
+        const auto at = [&](std::size_t rank) { return sorted.begin() + static_cast<std::ptrdiff_t>(rank); };
+        const std::size_t half = sorted.size() / 2, most = sorted.size() * 97 / 100;
+        std::nth_element(sorted.begin(), at(most), sorted.end());
+        if (half < most) std::nth_element(sorted.begin(), at(half), at(most));
+        const float middle = std::max(sorted[half], 1e-6f), bright = std::max(sorted[most], 1e-6f);
         const float exposure = std::min(0.18f / middle, 0.9f / bright);
         for (std::size_t i = 0; i < sorted.size(); ++i) {
             const std::size_t v = picture.views[i / pixels];
