@@ -144,37 +144,53 @@ inline float sky_radiance(float up, float width)
 // What of the light is seen.
 enum class Seen { All, Gloss, Diffuse };
 
-// Radiance towards the eye. Paint: Lambert below the highlight; metal: the highlight alone. The
-// share is of the base colour: what is diffuse of paint, what metal mirrors.
-template <Seen kSeen = Seen::All>
-float shade(const glm::vec3& n, float p, float share, const glm::vec3& to_eye, const FloorLight& light)
+// Between a light and the eye: the half-vector, and how Schlick's rise to the rim goes with it.
+struct Between {
+    glm::vec3 h;
+    float rise;
+};
+inline Between between(const glm::vec3& to_eye, const FloorLight& light)
 {
-    constexpr float kGloss = kSeen == Seen::Diffuse ? 0.0f : 1.0f;
+    const glm::vec3 h = glm::normalize(light.to_light + to_eye);
+    const float lh = std::clamp(glm::dot(light.to_light, h), 0.0f, 1.0f);
+    const float m = 1.0f - lh, m2 = m * m;
+    return {h, m2 * m2 * m};
+}
+
+// Radiance towards the eye. Paint: Lambert below the highlight; metal: the highlight alone. The
+// share is of the base colour: what is diffuse of paint, what metal mirrors. known: between(), or null.
+template <Seen kSeen = Seen::All>
+float shade(const glm::vec3& n, float p, float share, const glm::vec3& to_eye, const FloorLight& light,
+            const Between* known = nullptr)
+{
     const float own = std::max(p * p, kNarrowestAlpha);
     const float f0 = light.metal ? kMetalF0 * share : kPaintF0;
     const float albedo = light.metal || kSeen == Seen::Gloss ? 0.0f : kPaintAlbedo * share;
     float seen = 0.0f;
     if (light.sky > 0.0f) {
-        const float nv = std::clamp(std::abs(glm::dot(n, to_eye)), 1e-4f, 1.0f);
-        const glm::vec3 mirror = 2.0f * glm::dot(n, to_eye) * n - to_eye;
-        // Schlick with the rim taken back by roughness, as image-based lighting does.
-        const float rim = std::pow(1.0f - nv, 5.0f);
-        const float fresnel = f0 + (std::max(1.0f - p, f0) - f0) * rim;
-        const float diffuse = 0.12f + 0.5f * (1.0f + n.z) * 0.45f;
-        seen = light.sky * (kGloss * fresnel * sky_radiance(mirror.z, own) + albedo * (1.0f - f0) * diffuse);
+        float radiance = albedo * (1.0f - f0) * (0.12f + 0.5f * (1.0f + n.z) * 0.45f);
+        if constexpr (kSeen != Seen::Diffuse) {
+            const float nv = std::clamp(std::abs(glm::dot(n, to_eye)), 1e-4f, 1.0f);
+            const glm::vec3 mirror = 2.0f * glm::dot(n, to_eye) * n - to_eye;
+            // Schlick with the rim taken back by roughness, as image-based lighting does.
+            const float rim = std::pow(1.0f - nv, 5.0f);
+            const float fresnel = f0 + (std::max(1.0f - p, f0) - f0) * rim;
+            radiance = fresnel * sky_radiance(mirror.z, own) + radiance;
+        }
+        seen = light.sky * radiance;
     }
-    const float alpha = std::sqrt(own * own + light.alpha2);
     const float nl = glm::dot(n, light.to_light);
     if (nl <= 0.0f || light.sun <= 0.0f) return seen;
-    const float nv = std::clamp(std::abs(glm::dot(n, to_eye)), 1e-4f, 1.0f);
-    const glm::vec3 h = glm::normalize(light.to_light + to_eye);
-    const float nh = std::clamp(glm::dot(n, h), 0.0f, 1.0f);
-    const float lh = std::clamp(glm::dot(light.to_light, h), 0.0f, 1.0f);
-    const float m = 1.0f - lh, m2 = m * m;
-    const float fresnel = f0 + (1.0f - f0) * (m2 * m2 * m);
-    return seen + light.sun * nl *
-                      (kGloss * fresnel * shared::ggx_distribution(nh, alpha) * shared::ggx_visibility(nl, nv, alpha) +
-                       (1.0f - fresnel) * albedo * (1.0f / shared::kPi));
+    const Between at = known ? *known : between(to_eye, light);
+    const float fresnel = f0 + (1.0f - f0) * at.rise;
+    float reflected = (1.0f - fresnel) * albedo * (1.0f / shared::kPi);
+    if constexpr (kSeen != Seen::Diffuse) {
+        const float alpha = std::sqrt(own * own + light.alpha2);
+        const float nv = std::clamp(std::abs(glm::dot(n, to_eye)), 1e-4f, 1.0f);
+        const float nh = std::clamp(glm::dot(n, at.h), 0.0f, 1.0f);
+        reflected = fresnel * shared::ggx_distribution(nh, alpha) * shared::ggx_visibility(nl, nv, alpha) + reflected;
+    }
+    return seen + light.sun * nl * reflected;
 }
 
 inline float shade(const Texel& t, float p, const glm::vec3& to_eye, const FloorLight& light)
@@ -187,11 +203,12 @@ inline float shade(const Texel& t, float p, const SecondTexel& second, float p2,
                    const FloorLight& light)
 {
     const float share = light.metal ? t.metal : t.diffuse;
-    const float gloss = (1.0f - second.share) * shade<Seen::Gloss>(t.n, p, share, to_eye, light) +
-                        second.share * shade<Seen::Gloss>(second.n, p2, share, to_eye, light);
+    const Between at = between(to_eye, light);
+    const float gloss = (1.0f - second.share) * shade<Seen::Gloss>(t.n, p, share, to_eye, light, &at) +
+                        second.share * shade<Seen::Gloss>(second.n, p2, share, to_eye, light, &at);
     if (light.metal) return gloss;
     const glm::vec3 mean = glm::normalize(t.n + second.share * (second.n - t.n));
-    return gloss + shade<Seen::Diffuse>(mean, p, share, to_eye, light);
+    return gloss + shade<Seen::Diffuse>(mean, p, share, to_eye, light, &at);
 }
 
 inline float perceptual(float stored, const PrefilterOptions& input)
