@@ -140,7 +140,7 @@ std::pair<double, double> axis_range(const SimulationTable& table, const PlotPan
         for (double value : dots.values) widen(value);
     }
     if (low == high) return {0.0, 1.0};
-    const auto ticks = axis_ticks(low, high, 4, false);
+    const auto ticks = axis_ticks(low, high, panel.forcing ? 4 : 5, false);
     const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high - low;
     return {step * std::floor(low / step + 1e-9), step * std::ceil(high / step - 1e-9)};
 }

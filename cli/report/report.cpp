@@ -68,6 +68,7 @@ std::string data_json(const SimulationTable& table)
         events.push_back({{"t", event.time_s}, {"text", event.text}});
     }
     ordered_json all{{"times", times}, {"panels", panels}, {"events", events}};
+    if (!table.gaps_s.empty()) all["gaps"] = table.gaps_s;
     // Milliseconds since 1970 of time 0 by the clock shown, for the names of days.
     if (table.dated) {
         all["start_ms"] = static_cast<double>(table.utc_start_us) * 1e-3 + table.utc_offset_s * 1e3;
@@ -162,7 +163,7 @@ const panels=D.panels.map((p,index)=>{const box=document.createElement("div");bo
  for(const d of p.dots){const e=document.createElement("span"),i=document.createElement("i");i.className="dot";e.append(i,d.label+" ");legend.append(e)}
  const canvas=document.createElement("canvas");canvas.setAttribute("role","img");canvas.setAttribute("aria-label",p.title);box.append(canvas);charts.append(box);
  return{p,canvas,reads,last:index===D.panels.length-1}});
-const LEFT=44,RIGHT=10;
+const LEFT=44,RIGHT=10,GAPS=D.gaps||[];
 // Over months a line of hours is a smear: the mean of each day between its lowest and highest hour.
 const DAYS=S===undefined?null:T.map(t=>Math.floor((S/1000+t)/86400)),daily=new Map();
 function days(s){if(daily.has(s))return daily.get(s);const out=[];let cur=null;
@@ -170,7 +171,7 @@ function days(s){if(daily.has(s))return daily.get(s);const out=[];let cur=null;
   if(!cur||cur.d!==DAYS[i]){cur={d:DAYS[i],t:(DAYS[i]+.5)*86400-S/1000,lo:v,hi:v,sum:0,n:0,gap:!cur};out.push(cur)}
   cur.lo=Math.min(cur.lo,v);cur.hi=Math.max(cur.hi,v);cur.sum+=v;cur.n++}
  daily.set(s,out);return out}
-const PERDAY=(t1-t0)>0?N*86400/(t1-t0):0;
+const PERDAY=(t1-t0)>0?N*86400/(t1-t0):0,MONTHLY=120*86400;
 function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),mark=css("--mark"),ink=css("--ink"),dot=css("--dot");
  const width=charts.clientWidth,inner=width-LEFT-RIGHT,x=t=>LEFT+inner*(t-from)/(to-from);
  const tt=timeTicks(from,to,Math.max(2,Math.floor(inner/66)));
@@ -185,9 +186,10 @@ function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),m
    const half=c.measureText(s).width/2;c.fillText(s,Math.min(width-half,Math.max(half,x(t))),top+h+(last?22:6))}
   if(p.low<0&&p.high>0){c.strokeStyle=axis;c.beginPath();c.moveTo(LEFT,y(0));c.lineTo(width-RIGHT,y(0));c.stroke()}
   c.save();c.beginPath();c.rect(LEFT,0,inner,h+top+1);c.clip();
+  c.fillStyle=mark;c.globalAlpha=.22;for(const[a,b]of GAPS)if(b>from&&a<to)c.fillRect(x(a),top,x(b)-x(a),h);c.globalAlpha=1;
   const i0=rowBefore(from),i1=Math.min(N-1,rowBefore(to)+1);
   const crowd=i1-i0>1500?1.2:2;
-  for(const s of p.series){if(DAYS&&PERDAY>5&&to-from>120*86400&&!s.filled&&!s.low){const d=days(s).filter(o=>o.t>=from-86400&&o.t<=to+86400);
+  for(const s of p.series){if(DAYS&&PERDAY>5&&to-from>MONTHLY&&!s.filled&&!s.low){const d=days(s).filter(o=>o.t>=from-86400&&o.t<=to+86400);
    for(let a=0;a<d.length;){let b=a+1;while(b<d.length&&!d[b].gap)b++;c.beginPath();for(let k=a;k<b;k++)c.lineTo(x(d[k].t),y(d[k].hi));for(let k=b-1;k>=a;k--)c.lineTo(x(d[k].t),y(d[k].lo));c.closePath();c.globalAlpha=.3;c.fillStyle=s.color;c.fill();c.globalAlpha=1;
     c.beginPath();for(let k=a;k<b;k++)c.lineTo(x(d[k].t),y(d[k].sum/d[k].n));c.strokeStyle=s.color;c.lineWidth=1.3;c.lineJoin="round";c.stroke();a=b}continue}
    if(s.low){c.beginPath();for(let i=i0;i<=i1;i++)c.lineTo(x(T[i]),y(s.high[i]));for(let i=i1;i>=i0;i--)c.lineTo(x(T[i]),y(s.low[i]));c.closePath();c.globalAlpha=.25;c.fillStyle=s.color;c.fill();c.globalAlpha=1}
@@ -197,12 +199,13 @@ function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),m
   for(const d of p.dots){c.fillStyle=dot;for(let i=0;i<d.times.length;i++)if(d.times[i]>=from&&d.times[i]<=to){c.beginPath();c.arc(x(d.times[i]),y(d.values[i]),d.times.length>150&&to-from>.5*(t1-t0)?1.6:2.6,0,7);c.fill()}}
   c.restore();
   let lastX=-99;c.fillStyle=soft;c.textBaseline="top";
-  D.events.forEach((e,i)=>{if(e.t<from||e.t>to)return;const X=x(e.t);c.strokeStyle=mark;c.lineWidth=1;c.setLineDash([3,4]);c.beginPath();c.moveTo(X,0);c.lineTo(X,top+h+4);c.stroke();c.setLineDash([]);
+  const many=D.events.filter(e=>e.t>=from&&e.t<=to).length>20;
+  D.events.forEach((e,i)=>{if(e.t<from||e.t>to)return;const X=x(e.t);c.strokeStyle=mark;c.lineWidth=1;c.setLineDash([3,4]);c.globalAlpha=many?.3:1;c.beginPath();c.moveTo(X,0);c.lineTo(X,top+h+4);c.stroke();c.setLineDash([]);c.globalAlpha=1;
    if(last&&X-lastX>14){lastX=X;c.fillText(String(i+1),X,top+h+6)}});
   if(cursor!==null&&cursor>=from&&cursor<=to){c.strokeStyle=ink;c.lineWidth=1;c.beginPath();c.moveTo(x(cursor),0);c.lineTo(x(cursor),top+h);c.stroke();
    for(const s of p.series){if(valueAt(s,cursor)===null)continue;c.fillStyle=s.color;c.beginPath();c.arc(x(cursor),y(valueAt(s,cursor)),3.5,0,7);c.fill()}}
   p.series.forEach((s,i)=>{const v=cursor===null?null:valueAt(s,cursor);reads[i].textContent=cursor===null?"":v===null?"\u2013":v.toFixed(p.high-p.low>5?1:3)})}
- $("now").textContent=cursor===null?"point to read values"+(D.clock?"; times are "+D.clock:""):nowText(cursor);drawn=true}
+ $("now").textContent=cursor===null?"point to read values"+(D.clock?"; times are "+D.clock:"")+(DAYS&&PERDAY>5&&to-from>MONTHLY?"; a line is the mean of each day, its band from the lowest to the highest hour":""):nowText(cursor);drawn=true}
 let asked=false;function redraw(){if(asked)return;asked=true;requestAnimationFrame(()=>{asked=false;draw()})}
 function view(a,b){const least=(t1-t0)/2000,span=Math.min(t1-t0,Math.max(least,b-a));let f=Math.max(t0,Math.min(a,t1-span));from=f;to=f+span;redraw()}
 function zoom(at,factor){view(at-(at-from)*factor,at+(to-at)*factor)}
@@ -276,6 +279,19 @@ std::string scores_table(const SimulationTable& table)
     return html + "</table>\n";
 }
 
+// What the shaded times are.
+std::string gaps_text(const SimulationTable& table)
+{
+    if (table.gaps_s.empty()) return "";
+    double sum_s = 0.0;
+    for (const auto& [from_s, to_s] : table.gaps_s) sum_s += to_s - from_s;
+    char text[160];
+    std::snprintf(text, sizeof text, "grey: %.1f days in %zu gap%s of which the file has no rows; "
+                  "what is drawn there was made up", sum_s / 86400.0, table.gaps_s.size(),
+                  table.gaps_s.size() == 1 ? "" : "s");
+    return std::string("<p class=\"warn\">") + text + "</p>\n";
+}
+
 // The first and last time of a dated table.
 std::string period(const SimulationTable& table)
 {
@@ -303,7 +319,7 @@ std::string html_report(const SimulationTable& table)
            title + " - petrichor</title>\n<style>" + kStyle +
            "</style>\n</head>\n<body>\n<main>\n" + "<h1>" + title + "</h1>\n<p class=\"sub\">" +
            escaped(table.model) + " model, " + escaped(table.mode) + "; " + period(table) +
-           "state " + hash_text(table.state_hash) + "</p>\n" + warnings + scores_table(table) +
+           "state " + hash_text(table.state_hash) + "</p>\n" + warnings + gaps_text(table) + scores_table(table) +
            "<noscript>" + svg_plot(table) + "</noscript>\n" +
            "<section class=\"card\"><div class=\"bar\"><span id=\"now\"></span><span>"
            "<button id=\"out\" aria-label=\"zoom out\">&minus;</button> "

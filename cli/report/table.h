@@ -74,6 +74,8 @@ struct SimulationTable {
     std::int64_t utc_start_us = 0;     ///< of time_s 0, microseconds since 1970, when utc or dated
     std::vector<std::vector<double>> rows;  ///< as many numbers a row as columns
     std::vector<SimulationEvent> events;    ///< ascending
+    /// Times of which the input has no rows: what is drawn there was made up.
+    std::vector<std::pair<double, double>> gaps_s;
     std::vector<PlotPanel> panels;
     std::vector<std::string> notes;     ///< what was read, what was left out
     std::vector<std::string> warnings;  ///< what a reader of the plot must know

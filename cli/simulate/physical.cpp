@@ -275,6 +275,13 @@ void add_read_report(SimulationTable& table, const weather::ReadResult& read)
         table.warnings.push_back(note.field + ": " + note.text + line);
     }
     table.json_parts.emplace_back("read", weather::to_json(read.report));
+    constexpr double kShownGap_s = 6.0 * 3600.0;
+    const std::int64_t origin_us = read.table.time_us.front();
+    for (const weather::ReadGap& gap : read.report.gaps) {
+        const std::pair<double, double> s{static_cast<double>(gap.from_us - origin_us) * 1e-6,
+                                          static_cast<double>(gap.to_us - origin_us) * 1e-6};
+        if (s.second - s.first >= kShownGap_s) table.gaps_s.push_back(s);
+    }
 }
 
 SimulationTable run_physical(const weather::ReadResult& read, const std::string& name,

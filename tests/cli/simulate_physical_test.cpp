@@ -326,6 +326,43 @@ TEST(SimulatePhysical, ObservationsAreScoredByTheRules)
     }
 }
 
+// Hours of which the file has no rows are grey in the report, with their sum; an hour or two are not.
+TEST(SimulatePhysical, GapsOfTheFileAreShown)
+{
+    std::string text = "time,air_temp_c,rel_humidity_pct\n";
+    for (const int hour : {0, 1, 2, 4, 5, 6, 36, 37, 38, 39}) {
+        char row[64];
+        std::snprintf(row, sizeof row, "2024-06-%02dT%02d:00Z,15,60\n", 1 + hour / 24, hour % 24);
+        text += row;
+    }
+    const SimulationTable t = simulated(text, city());
+    ASSERT_EQ(t.gaps_s.size(), 1u);
+    EXPECT_EQ(t.gaps_s[0].first, 7 * 3600.0);
+    EXPECT_EQ(t.gaps_s[0].second, 36 * 3600.0);
+    const std::string html = html_report(t);
+    EXPECT_NE(html.find("\"gaps\":[[25200.0,129600.0]]"), std::string::npos);
+    EXPECT_NE(html.find("grey: 1.2 days in 1 gap of which the file has no rows"), std::string::npos);
+    EXPECT_EQ(html_report(simulated(weather_csv(), city())).find("grey:"), std::string::npos);
+}
+
+// An axis ends at round values and is not twice as long as what is on it.
+TEST(SimulatePhysical, AxesAreNotFarLongerThanTheirValues)
+{
+    SimulationTable t;
+    t.columns = {"time_s", "value"};
+    for (const auto& [low, high] : {std::pair{-16.3, 63.2}, {-17.0, 64.0}, {0.0, 41.0}, {-1.0, 99.0},
+                                    {0.0, 0.034}, {-28.0, 53.0}, {-3.0, 1.0}}) {
+        t.rows = {{0.0, low}, {1.0, high}};
+        PlotPanel panel;
+        panel.series = {{"value", "", "#000000"}};
+        panel.high = panel.low;
+        const auto [bottom, top] = axis_range(t, panel);
+        EXPECT_LE(bottom, low);
+        EXPECT_GE(top, high);
+        EXPECT_LE(top - bottom, 1.5 * (high - low)) << low << " " << high;
+    }
+}
+
 TEST(SimulatePhysical, PanelsAreChosen)
 {
     SimulationTable t = simulated(weather_csv(), city());

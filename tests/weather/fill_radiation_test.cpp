@@ -150,7 +150,7 @@ TEST(FillRadiation, WhatTheAirTellsIsCalledThat)
     ReadReport report;
     fill_forcing(t, report);
     EXPECT_TRUE(says(report, "full: something falls, or fog (1 row")) << to_text(report);
-    EXPECT_TRUE(says(report, "from the humidity of a day")) << to_text(report);
+    EXPECT_TRUE(says(report, "from the air of a day")) << to_text(report);
     EXPECT_FALSE(says(report, "from shortwave")) << to_text(report);
 }
 

@@ -392,5 +392,34 @@ TEST(Services, NewestFirstAndRowsTwiceAreReadTheSame)
     }
 }
 
+// JSON of nobody that is known is not called Open-Meteo's: what it is, and what is read.
+TEST(UnknownJson, IsToldWhatItIs)
+{
+    EXPECT_THAT(refusal(R"({"station":1,"values":[1,2],"a":0,"b":0,"c":0,"d":0,"e":0,"f":0})"),
+                AllOf(HasSubstr("an object with 'station', 'values', 'a', 'b', 'c', 'd' and 2 more"),
+                      HasSubstr("of no kind that is known")));
+    EXPECT_THAT(refusal(R"([{"date":"2024-01-01T00:00Z","temperature":3},{}])"),
+                HasSubstr("a list of 2, the first an object with 'date', 'temperature'"));
+    EXPECT_THAT(refusal("[]"), HasSubstr("an empty list"));
+    EXPECT_THAT(refusal("[[1,2],[3,4]]"), HasSubstr("a list of 2, the first a list"));
+    EXPECT_THAT(refusal(R"({"hourly":3})"), HasSubstr("an object with 'hourly'"));
+    for (const char* text : {"[]", R"({"hourly":3})", R"({"a":1})"})
+        EXPECT_THAT(refusal(text), Not(HasSubstr("Open-Meteo response"))) << text;
+    try {
+        read_weather(R"({"a":1})");
+        ADD_FAILURE();
+    } catch (const Error& e) {
+        for (const char* kind : {"Open-Meteo", "OpenWeather", "Visual Crossing", "NASA POWER",
+                                 "PVGIS", "Weather Underground"})
+            EXPECT_THAT(e.fix(), HasSubstr(kind));
+    }
+    // Open-Meteo's own answers that hold no hours.
+    EXPECT_THAT(refusal(R"({"latitude":51.2,"generationtime_ms":0.1,"daily":{"time":[]}})"),
+                AllOf(HasSubstr("Open-Meteo response without an object 'hourly'"),
+                      HasSubstr("'daily'")));
+    EXPECT_THAT(refusal(R"({"reason":"Daily API request limit exceeded.","error":true})"),
+                HasSubstr("a service's refusal: 'Daily API request limit exceeded.'"));
+}
+
 }  // namespace
 }  // namespace petrichor::weather

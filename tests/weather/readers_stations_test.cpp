@@ -169,7 +169,7 @@ TEST(WeatherUndergroundJson, MinutesInTheUnitsOfTheirObject)
     EXPECT_NEAR(in("\"metric_si\"")[Field::Wind][2], 7.2, 1e-9);
     EXPECT_NEAR(in("\"uk_hybrid\"")[Field::Wind][2], 7.2 * 0.44704, 1e-9);
     EXPECT_NEAR(in("\"uk_hybrid\"")[Field::AirTemp][0], 277.25, 1e-9);
-    EXPECT_THAT(refusal(with(text, "\"metric\"", "\"mixed\"")), Not(HasSubstr("Weather Underground")));
+    EXPECT_THAT(refusal(with(text, "\"metric\"", "\"mixed\"")), HasSubstr("of no kind that is known"));
 }
 
 TEST(WeatherUndergroundJson, HoursAndWhatIsRefused)

@@ -399,9 +399,11 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     const ForcingTable t = observed_weather(o, forecast);
     ASSERT_EQ(t.rows(), 6u);  // and two of the forecast
     // At -5 C with a dew point of -6 the air says more than half a cover.
-    const double air = cloud_of_humidity(rel_humidity_of_dew_point_pct(268.15, 267.15));
+    const double humidity = rel_humidity_of_dew_point_pct(268.15, 267.15);
+    const double air = cloud_of_day({.mean_rel_humidity_pct = humidity});
     EXPECT_GT(air, 0.9);
-    const double before = air - (air - 0.1) * std::exp(-2.0 / kForecastCloudMemory_h);
+    const double worth = kForecastCloudWorth * std::exp(-2.0 / kForecastCloudMemory_h);
+    const double before = air - worth * (air - 0.1);
     EXPECT_NEAR(t[Field::Cloud][0], before, 1e-12);
     EXPECT_EQ(t[Field::Cloud][1], 1.0);
     EXPECT_NEAR(t[Field::Cloud][2], 0.1 + 0.9 * std::exp(-1.0 / kRainCloudMemory_h), 1e-12);
@@ -424,6 +426,11 @@ TEST(Metro, WeatherOfTheMeasuredHours)
     MetroObservation dry = o;
     dry.table[Field::DewPoint].assign(o.table.rows(), kMissing);
     EXPECT_EQ(observed_weather(dry, silent)[Field::Cloud][0], 0.5);
+    // A row that lacks its dew point, or its air, says nothing of the day's humidity.
+    MetroObservation gaps = o;
+    gaps.table[Field::DewPoint][1] = kMissing;
+    gaps.table[Field::AirTemp][2] = kMissing;
+    EXPECT_NEAR(observed_weather(gaps, silent)[Field::Cloud][0], air, 1e-12);
 }
 
 // A forecast begins with the mean of its first three hours, and one that snows out of a clear sky
@@ -450,8 +457,10 @@ TEST(Metro, CloudsWithWhichAForecastBegins)
     const auto before = [&](const std::string& text) {
         return observed_weather(o, read_metro_forecast(text))[Field::Cloud][1];
     };
-    const double last = std::exp(-1.0 / 60.0 / kForecastCloudMemory_h), air = 1.0 - last;
-    const double of_air = cloud_of_humidity(rel_humidity_of_dew_point_pct(268.15, 267.15));
+    const double last = kForecastCloudWorth * std::exp(-1.0 / 60.0 / kForecastCloudMemory_h),
+                 air = 1.0 - last;
+    const double humidity = rel_humidity_of_dew_point_pct(268.15, 267.15);
+    const double of_air = cloud_of_day({.mean_rel_humidity_pct = humidity});
     EXPECT_NEAR(before(forecast_of({0, 4, 8, 1, 1}, 0.0)), 0.5 * last + of_air * air, 1e-9);
     EXPECT_NEAR(before(forecast_of({0, 0, 0, 0, 0}, 0.05)), of_air * air, 1e-9);
     EXPECT_NEAR(before(forecast_of({0, 0, 0, 0, 0}, 0.2)), last + of_air * air, 1e-9);

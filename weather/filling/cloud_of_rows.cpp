@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "weather/physics/cloud_of_air.h"
 #include "weather/physics/detail/formulas.h"
@@ -24,8 +25,9 @@ enum class From : std::uint8_t { Nothing, File, Sun, Sky };
 
 class Rows {
 public:
-    Rows(const ForcingTable& table, const std::vector<double>& sine, bool sun_is_known)
-        : table_(table), sine_(sine), cloud_(table.rows(), kMissing), from_(table.rows(), From::Nothing)
+    Rows(const ForcingTable& table, const std::vector<double>& sine, bool sun_is_known,
+         const std::vector<double>& measured_air_k)
+        : table_(table), sine_(sine), measured_air_k_(measured_air_k), sun_is_known_(sun_is_known), cloud_(table.rows(), kMissing), from_(table.rows(), From::Nothing)
     {
         for (std::size_t i = 0; i < table.rows(); ++i) from_[i] = tell(i, sun_is_known);
     }
@@ -113,7 +115,10 @@ private:
             return;
         }
         if (!before) {
-            const std::vector<double> air = cloud_of_air(table_.time_us, table_[Field::RelHumidity]);
+            const std::vector<double> air =
+                cloud_of_air({table_.time_us, table_[Field::RelHumidity], measured_air_k_,
+                              sun_is_known_ ? std::span<const double>(sine_)
+                                            : std::span<const double>()});
             std::copy_n(air.begin(), end, cloud_.begin());
             count(From::Nothing, end, fills);
             return;
@@ -138,6 +143,8 @@ private:
 
     const ForcingTable& table_;
     const std::vector<double>& sine_;
+    const std::vector<double>& measured_air_k_;
+    bool sun_is_known_;
     std::vector<double> cloud_;
     std::vector<From> from_;
 };
@@ -158,9 +165,10 @@ double emissivity_of_row(const ForcingTable& table, std::size_t row)
 }
 
 std::vector<double> cloud_of_rows(const ForcingTable& table, const std::vector<double>& sine,
-                                  bool sun_is_known, CloudFills& fills)
+                                  bool sun_is_known, const std::vector<double>& measured_air_k,
+                                  CloudFills& fills)
 {
-    return Rows(table, sine, sun_is_known).fill(fills);
+    return Rows(table, sine, sun_is_known, measured_air_k).fill(fills);
 }
 
 }  // namespace petrichor::weather

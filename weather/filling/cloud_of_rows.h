@@ -26,11 +26,13 @@ double emissivity_of_row(const ForcingTable& table, std::size_t row);
 /// Rows without any of these lie between two that have one. Where those know it from the sun, it is
 /// the light that clouds took in the six hours of sun before and in the six after, weighted by the
 /// clear sky, and between the two a line: a low sun alone tells little. Otherwise it is kept from
-/// the row before, and without one told by the humidity of a day (cloud_of_air).
+/// the row before, and without one told by the air of a day (cloud_of_air).
 ///   sine  of the sun's elevation, of each row; unused where the file has cloud
 ///   sun_is_known  the file has a place
+///   measured_air_k  air temperature of each row, NaN where the file has none of its own
 std::vector<double> cloud_of_rows(const ForcingTable& table, const std::vector<double>& sine,
-                                  bool sun_is_known, CloudFills& fills);
+                                  bool sun_is_known, const std::vector<double>& measured_air_k,
+                                  CloudFills& fills);
 
 }  // namespace petrichor::weather
 

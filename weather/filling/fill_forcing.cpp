@@ -103,6 +103,16 @@ void fill_pressure(ForcingTable& table, ReadReport& report)
     note_filled(report, field_info(Field::Pressure).name, filled, how);
 }
 
+// Values at some of the times; NaN at the others.
+std::vector<double> in_rows(const std::vector<std::int64_t>& rows_us,
+                            const std::vector<std::int64_t>& own_us, const std::vector<double>& own)
+{
+    std::vector<double> out(rows_us.size(), kMissing);
+    for (std::size_t i = 0, k = 0; i < rows_us.size() && k < own_us.size(); ++i)
+        if (rows_us[i] == own_us[k]) out[i] = own[k++];
+    return out;
+}
+
 }  // namespace
 
 void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& options)
@@ -147,6 +157,8 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
                     "air_temp_c, air_temp_k or temperature (F).");
     }
     phase_from_depth(table, report);
+    const std::vector<std::int64_t> own_us = table.time_us;
+    const std::vector<double> own_air_k = table[Field::AirTemp];
     divide_for_the_sun(table, report, options);
     n = table.rows();
     bridge(table, report, Field::AirTemp, options);
@@ -171,7 +183,7 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     fill_humidity(table, report);
     fill_pressure(table, report);
     fill_precipitation(table, report);
-    fill_radiation(table, report);
+    fill_radiation(table, report, in_rows(table.time_us, own_us, own_air_k));
     const bool estimate = options.missing_precip == MissingPrecip::Estimate &&
                           !table.has(Field::Rain) && !table.has(Field::Snow);
     if (estimate) estimate_precipitation(table, report, precip_known);

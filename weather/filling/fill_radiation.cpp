@@ -117,7 +117,8 @@ void divide_for_the_sun(ForcingTable& table, ReadReport& report, const FillOptio
                         " more rows of at most an hour, for the sun to rise and set in them"});
 }
 
-void fill_radiation(ForcingTable& table, ReadReport& report)
+void fill_radiation(ForcingTable& table, ReadReport& report,
+                    const std::vector<double>& measured_air_k)
 {
     const std::size_t n = table.rows();
     auto& net = table[Field::NetShortwave];
@@ -142,7 +143,7 @@ void fill_radiation(ForcingTable& table, ReadReport& report)
             sine[i] = SunNear(table.time_us[i], observer).at(table.time_us[i]).up;
     }
     CloudFills clouds;
-    cloud = cloud_of_rows(table, sine, place, clouds);
+    cloud = cloud_of_rows(table, sine, place, measured_air_k, clouds);
     std::size_t shortwave = 0, longwave = 0;
     for (std::size_t i = 0; i < n; ++i) {
         if (std::isnan(sw[i])) {
@@ -167,7 +168,7 @@ void fill_radiation(ForcingTable& table, ReadReport& report)
     note_filled(report, cloud_name, clouds.from_sky, "from longwave (Dilley & O'Brien 1998)");
     note_filled(report, cloud_name, clouds.falling, "full: something falls, or fog");
     note_filled(report, cloud_name, clouds.from_air,
-                "from the humidity of a day: half a cover where dry, full where saturated");
+                "from the air of a day: the more the damper it is and the less it warms");
     note_filled(report, field_info(Field::Shortwave).name, shortwave,
                 "clear sky (Haurwitz 1945) and cloud (Kasten & Czeplak 1980)" + where +
                     (net.empty() ? "" : "; what the ground takes up is the file's sw_net"));

@@ -1,6 +1,8 @@
 #ifndef PETRICHOR_WEATHER_FILLING_FILL_RADIATION_H
 #define PETRICHOR_WEATHER_FILLING_FILL_RADIATION_H
 
+#include <vector>
+
 #include "weather/forcing/forcing.h"
 
 // The part of fill_forcing that concerns sun, sky and cloud.
@@ -13,7 +15,9 @@ void divide_for_the_sun(ForcingTable& table, ReadReport& report, const FillOptio
 
 /// Cloud, then shortwave, then longwave: each from what is there. Needs air temperature and
 /// humidity; net shortwave, where it is used, follows the shortwave made here.
-void fill_radiation(ForcingTable& table, ReadReport& report);
+///   measured_air_k  air temperature of each row, NaN where the file has none of its own
+void fill_radiation(ForcingTable& table, ReadReport& report,
+                    const std::vector<double>& measured_air_k);
 
 }  // namespace petrichor::weather
 

@@ -27,6 +27,10 @@ struct FieldReport {
     std::size_t filled = 0;        ///< rows filled afterwards
     std::string filled_by;         ///< how
 };
+/// Time without rows between two of a file.
+struct ReadGap {
+    std::int64_t from_us = 0, to_us = 0;
+};
 struct ReadReport {
     std::string format;  ///< as recognised
     std::size_t rows = 0;
@@ -35,6 +39,7 @@ struct ReadReport {
     std::vector<FieldReport> fields;
     std::vector<ReadNote> notes;  ///< at most kMostNotes, then a count
     std::size_t notes_dropped = 0;
+    std::vector<ReadGap> gaps;  ///< ascending
 
     static constexpr std::size_t kMostNotes = 200;
     void add(ReadNote note);

@@ -1,5 +1,8 @@
 #include "weather/physics/humidity.h"
 
+#include <cmath>
+#include <limits>
+
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/formulas.h"
 
@@ -27,6 +30,9 @@ double vapour_pressure_of_specific_humidity_pa(double q, double pressure_pa)
 
 double rel_humidity_of_dew_point_pct(double temp_k, double dew_point_k)
 {
+    // The exponential makes a number of NaN.
+    if (std::isnan(temp_k) || std::isnan(dew_point_k))
+        return std::numeric_limits<double>::quiet_NaN();
     return 100.0 * saturation_pressure_water_pa(dew_point_k) / saturation_pressure_water_pa(temp_k);
 }
 

@@ -18,7 +18,7 @@ double saturation_pressure_ice_pa(double temp_k);
 double vapour_pressure_pa(double temp_k, double rel_humidity_pct);
 /// Vapour pressure from specific humidity (kg/kg).
 double vapour_pressure_of_specific_humidity_pa(double specific_humidity, double pressure_pa);
-/// Relative humidity in percent from a dew point; not limited to 100.
+/// Relative humidity in percent from a dew point; not limited to 100, NaN where either is NaN.
 double rel_humidity_of_dew_point_pct(double temp_k, double dew_point_k);
 /// Dew point of a vapour pressure > 0: the inverse of saturation_pressure_water_pa.
 double dew_point_k(double vapour_pa);

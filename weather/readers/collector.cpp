@@ -365,6 +365,7 @@ ForcingTable RowCollector::finish()
         if (i > 0 && times_[i] - times_[i - 1] != step_of_row_us(times_, i - 1, usual)) {
             table.time_us.push_back(times_[i - 1] + usual);
             from.push_back(kNone);
+            report_.gaps.push_back({times_[i - 1] + usual, times_[i]});
             if (++gaps == 1 || times_[i] - times_[i - 1] > times_[longest] - times_[longest - 1])
                 longest = i;
         }

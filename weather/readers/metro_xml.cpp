@@ -9,6 +9,7 @@
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/portable_math.h"
 #include "weather/physics/humidity.h"
+#include "weather/physics/solar.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 
@@ -306,6 +307,18 @@ static double first_cover(const ForcingTable& forecast)
     return known > 0 ? sum / static_cast<double>(known) : kMissing;
 }
 
+// Of the sun's elevation; none where the table has no place.
+static std::vector<double> sine_of_rows(const ForcingTable& table)
+{
+    std::vector<double> sine;
+    const Site& site = table.site;
+    if (std::isnan(site.latitude_deg) || std::isnan(site.longitude_deg)) return sine;
+    const Observer observer(site.latitude_deg, site.longitude_deg);
+    for (const std::int64_t us : table.time_us)
+        sine.push_back(SunNear(us, observer).at(us).up);
+    return sine;
+}
+
 ForcingTable observed_weather(const MetroObservation& observed, const ForcingTable& forecast)
 {
     ForcingTable t = observed.table;
@@ -318,7 +331,9 @@ ForcingTable observed_weather(const MetroObservation& observed, const ForcingTab
     for (std::size_t i = 0; i < t.rows(); ++i)
         humidity.push_back(
             rel_humidity_of_dew_point_pct(t[Field::AirTemp][i], t[Field::DewPoint][i]));
-    const std::vector<double> air = cloud_of_air(t.time_us, humidity);
+    const std::vector<double> sine = sine_of_rows(t);
+    const std::vector<double> air =
+        cloud_of_air({t.time_us, humidity, t[Field::AirTemp], sine});
     std::optional<std::int64_t> fell_us;
     for (std::size_t i = 0; i < t.rows(); ++i) {
         const std::int64_t now_us = t.time_us[i];
@@ -330,7 +345,9 @@ ForcingTable observed_weather(const MetroObservation& observed, const ForcingTab
             forecast.rows() > 0 ? std::max<std::int64_t>(forecast.time_us[0] - now_us, 0) : 0;
         const double said =
             before_us > 0 ? first : forecast_cover(forecast, static_cast<std::size_t>(row));
-        if (!std::isnan(said)) cover += (said - cover) * kept(before_us, kForecastCloudMemory_h);
+        const double worth =
+            before_us > 0 ? kForecastCloudWorth * kept(before_us, kForecastCloudMemory_h) : 1.0;
+        if (!std::isnan(said)) cover += (said - cover) * worth;
         if (observed.falling[i] == 1.0) fell_us = now_us;
         if (fell_us) cover += (1.0 - cover) * kept(now_us - *fell_us, kRainCloudMemory_h);
         t[Field::Cloud].push_back(cover);

@@ -26,8 +26,9 @@ std::vector<QuantityColumn> quantity_columns(const TableHeader& header,
                         [&](const QuantityColumn& c) { return c.quantity->field == q.field; }))
             continue;
         for (const std::string& column : header.names()) {
-            const auto [name, unit] = parts(column);
-            if (name != q.name) continue;
+            const NameAndUnit named = parts(column);
+            if (named.name != q.name) continue;
+            const auto& unit = named.unit;
             const auto known = std::find_if(q.units.begin(), q.units.end(),
                                             [&](const QuantityUnit& u) { return unit == u.name; });
             if (known == q.units.end() && q.field == Field::Shortwave && is_of_sight(unit)) continue;

@@ -10,6 +10,7 @@
 #include "weather/readers/json.h"
 #include "weather/readers/text.h"
 #include "weather/readers/units.h"
+#include "weather/readers/unknown_json.h"
 
 namespace petrichor::weather {
 
@@ -112,10 +113,7 @@ static void read_open_meteo_json(std::string_view text, RowCollector& rows, cons
             rows.note(ReadNote::Kind::Info, 0, "", "several places in the file, the first is used");
     }
     const Json* hourly = root->find("hourly");
-    if (!hourly || hourly->kind != Json::Kind::Object) {
-        throw Error("weather: JSON has no object 'hourly'",
-                    "Give an Open-Meteo response with hourly values.");
-    }
+    if (!hourly || hourly->kind != Json::Kind::Object) refuse_unknown_json(whole);
     const auto number = [&](const char* key, double otherwise) {
         const Json* v = root->find(key);
         return v && v->kind == Json::Kind::Number ? v->number : otherwise;

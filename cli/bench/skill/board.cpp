@@ -290,7 +290,7 @@ std::string board_html(const Board& board)
     std::string out =
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>petrichor: skill</title>"
         "<style>body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}"
-        "td,th{padding:2px 10px;border-bottom:1px solid #ddd;text-align:right}"
+        "td,th{padding:2px 10px;border-bottom:1px solid #ddd;text-align:right}td{white-space:nowrap}"
         "td:first-child,td:nth-child(2),th:first-child,th:nth-child(2){text-align:left}.worse{"
         "background:#fbd5d5}"
         ".best{font-weight:bold}</style><h1>Skill of the weather models</h1>"

@@ -42,8 +42,9 @@ public:
     }
     void fill()
     {
-        weather_ = weather::observed_weather(road_.observed, road_.forecast);
-        weather_.site = road_.station.site;
+        ForcingTable forecast = road_.forecast;
+        forecast.site = road_.station.site;
+        weather_ = weather::observed_weather(road_.observed, forecast);
         weather::ReadReport unheard;
         weather::fill_forcing(weather_, unheard);
     }
