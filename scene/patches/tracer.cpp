@@ -7,14 +7,6 @@
 
 #include "scene/patches/detail/four.h"
 
-// Instructions of three operands where the processor has them: the same bits, a tenth of the time less.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define PETRICHOR_ALSO_AVX __attribute__((target_clones("avx", "default")))
-#else
-#define PETRICHOR_ALSO_AVX
-#endif
-
 namespace petrichor::scene {
 namespace {
 

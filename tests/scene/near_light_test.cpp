@@ -10,6 +10,8 @@
 #include "formulas/light/near_light.h"
 #include "scene/patches/detail/near_choice.h"
 #include "scene/patches/detail/near_faces.h"
+#include "scene/patches/detail/near_four.h"
+#include "scene/patches/detail/near_sources.h"
 #include "scene/patches/detail/sampling.h"
 #include "scene/patches/lamps.h"
 #include "scene/patches/lookup.h"
@@ -487,6 +489,82 @@ TEST(NearLight, AFaceOfABoxIsOnePolygon)
         const auto& c = face.polygon.corner;
         EXPECT_GT(glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), face.normal), 0.0f);
     }
+}
+
+// Four at a time get the bits of one at a time, above the horizon, across it, below, beside an edge and behind.
+TEST(NearFormFactor, FourPointsGetWhatEachOfThemGets)
+{
+    int across = 0, seen = 0, beside = 0;
+    for (std::uint64_t i = 0; i < 400; ++i) {
+        const auto number = [&](std::uint64_t k) { return unit_float(mixed(i, 90 + k)); };
+        const glm::vec3 u = cosine_direction({1, 0, 0}, number(0), number(1)) * (0.01f + 3.0f * number(2));
+        const glm::vec3 v = cosine_direction({0, 0, 1}, number(3), number(4)) * (0.01f + 3.0f * number(5));
+        const glm::vec3 at(4.0f * number(6) - 2.0f, 4.0f * number(7) - 2.0f, 4.0f * number(8) - 2.0f);
+        const std::array<glm::vec3, 4> corners{at, at + u, i % 3 == 0 ? at + v : at + u + v, at + v};
+        const NearPolygon polygon = polygon_of(corners);
+        const glm::vec3 front = front_of(corners);
+        std::vector<SamplePoint> points;
+        for (std::uint64_t k = 0; k < 7; ++k) {
+            const float far = k == 0 ? 0.0f : 3.0f * number(10 + 5 * k);
+            points.push_back({at + u * number(11 + 5 * k) + (front - v) * far,
+                              cosine_direction({0, 1, 0}, number(12 + 5 * k), number(13 + 5 * k))});
+        }
+        const FourPoints four(points);
+        ASSERT_EQ(four.position_m.size(), 2u);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const SamplePoint& p = points[k];
+            const auto lane = static_cast<int>(k % 4);
+            std::array<glm::vec3, 4> c;
+            int up = 0;
+            for (std::size_t j = 0; j < 4; ++j) {
+                c[j] = corners[j] - p.position_m;
+                up += glm::dot(c[j], p.normal) >= 0.0f ? 1 : 0;
+            }
+            const float one = shared::near_form_factor(c[0], c[1], c[2], c[3], p.normal);
+            EXPECT_EQ(near_form_factors(corners, four.position_m[k / 4], four.normal[k / 4])[lane], one) << i << " " << k;
+            const glm::vec3 nearest = nearest_in(polygon, front, p.position_m);
+            const Four3 found = nearest_in(polygon, front, four.position_m[k / 4]);
+            EXPECT_EQ(glm::vec3(found.x[lane], found.y[lane], found.z[lane]), nearest) << i << " " << k;
+            across += one > 0.0f && up > 0 && up < 4 ? 1 : 0;
+            seen += one > 0.0f && up == 4 ? 1 : 0;
+            beside += std::abs(glm::dot(nearest - p.position_m, front)) < distance_m(polygon, front, p.position_m) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(across, 200);
+    EXPECT_GT(seen, 100);
+    EXPECT_GT(beside, 200);
+}
+
+// What is not looked at has less than was found: the guess that faces are put in order by is never below what they have.
+TEST(NearLight, NoFaceHasMoreThanItMayHave)
+{
+    Scene scene = room();
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        const auto number = [&](std::uint64_t k) { return unit_float(mixed(i, 300 + k)); };
+        const glm::vec3 low(3.5f * number(0), i % 2 == 0 ? 0.0f : 2.0f * number(1), 3.5f * number(2));
+        add_box(scene, low, low + glm::vec3(0.02f + 0.4f * number(3), 0.02f + 1.2f * number(4), 0.02f + 0.4f * number(5)), false);
+    }
+    const Cut cut(scene);
+    const NearFaces faces = near_faces(cut.triangles);
+    const NearSources sources(cut.patches, cut.tracer, faces, nullptr, {});
+    const NearChooser chooser(cut.patches, cut.tracer, faces, sources, {});
+    const auto receivers = near_receivers(cut.patches, cut.tracer, faces, 1);
+    std::size_t have = 0, may = 0, all = 0;
+    for (std::uint32_t patch = 0; patch < cut.patches.count; patch += 7) {
+        if (receivers[patch].empty()) continue;
+        all += faces.faces.size();
+        const auto around = chooser.surroundings(patch, receivers[patch]);
+        for (std::uint32_t f = 0; f < faces.faces.size(); ++f) {
+            const auto one = chooser.candidate(f, false, around, 1e-4f);
+            const float most = chooser.most_square(f, false, around);
+            may += most >= 1e-4f ? 1 : 0;
+            if (!one) continue;
+            ++have;
+            EXPECT_GE(most, one->square) << patch << " " << f;
+        }
+    }
+    EXPECT_GT(have, 300u);
+    EXPECT_LT(may, all / 8);  // and it is of use
 }
 
 TEST(NearLight, IsTheSameForAnyNumberOfThreads)

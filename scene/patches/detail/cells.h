@@ -75,6 +75,11 @@ inline glm::ivec3 cell_in(shared::PatchKey key)
             static_cast<int>((key.low >> 19) | ((key.high & 0x3fu) << 13)),
             static_cast<int>((key.high >> 6) & 0x7ffffu)};
 }
+/// Which eighth of the cell above holds cell >> level, x fastest.
+inline std::size_t octant_of(glm::ivec3 cell, int level)
+{
+    return static_cast<std::size_t>((cell.x >> level & 1) | (cell.y >> level & 1) << 1 | (cell.z >> level & 1) << 2);
+}
 inline shared::PatchKey parent_of(shared::PatchKey key)
 {
     const glm::ivec3 c = cell_in(key);

@@ -92,6 +92,7 @@ LinkRay trace_link(const Tracer& tracer, const RowRays& row, int r)
     LinkRay link;
     const glm::vec3 local = row.local(r);
     for (std::size_t draw = 0; draw < RowRays::kDraws; ++draw) {
+        link.draws = draw + 1;
         link.ray = row.ray(r, local, draw);
         link.hit = tracer.nearest(link.ray);
         link.inside =
@@ -107,6 +108,7 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
     const float open_m = open_radius_m(triangles);
     patches.links.resize(std::size_t{patches.count} * static_cast<std::size_t>(patches.rays));
     patches.sky_view.resize(patches.count);
+    patches.redrawn.assign(std::size_t{patches.count} * patches.redrawn_row(), 0);
     over_patches(patches, options, "links", [&](std::uint32_t patch) {
         std::uint16_t* row =
             patches.links.data() + std::size_t{patch} * static_cast<std::size_t>(patches.rays);
@@ -117,6 +119,9 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
         std::vector<std::pair<int, std::uint16_t>> replaced;
         for (int r = 0; r < patches.rays; ++r) {
             const LinkRay link = trace_link(tracer, rays, r);
+            if (link.draws > 1)
+                patches.redrawn[patch * patches.redrawn_row() + static_cast<std::size_t>(r) / 8] |=
+                    static_cast<std::uint8_t>(1u << r % 8);
             std::uint32_t id = patches.black();
             if (!link.hit.hit() && !link.inside) {
                 id = patches.count +

@@ -33,6 +33,7 @@ struct LinkRay {
     Ray ray;
     RayHit hit;
     bool inside = false;  ///< it starts inside a body, whatever was drawn
+    std::size_t draws = 0;
 };
 LinkRay trace_link(const Tracer& tracer, const RowRays& row, int r);
 

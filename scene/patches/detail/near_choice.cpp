@@ -7,7 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "formulas/light/near_light.h"
 #include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/near_rays.h"
 #include "scene/patches/detail/sampling.h"
@@ -40,11 +39,6 @@ constexpr std::size_t kReceivers = 48;  // points of a patch that are asked, at 
 // (1 - h / sqrt(h^2 + 1))^2 / 4 over h, (1 - pi / 4) / 2.
 constexpr float kStripSquare = 0.1073f;
 constexpr float kSmallest_m2 = 1e-8f;
-
-float form_factor(const std::array<glm::vec3, 4>& c, glm::vec3 x, glm::vec3 n)
-{
-    return shared::near_form_factor(c[0] - x, c[1] - x, c[2] - x, c[3] - x, n);
-}
 
 struct Sphere {
     glm::vec3 middle;
@@ -210,13 +204,19 @@ NearChooser::Surroundings NearChooser::surroundings(std::uint32_t patch, std::sp
                  shared::kPatchGridShift * patches_.cell_m;
     around.high = around.low + edge;
     const std::size_t step = (receivers.size() + kReceivers - 1) / kReceivers;
+    glm::vec3 least = receivers[0].position_m, most = least;
     for (std::size_t k = 0; k < receivers.size(); k += step) {
         around.points.push_back(receivers[k]);
-        around.low = glm::min(around.low, receivers[k].position_m);
-        around.high = glm::max(around.high, receivers[k].position_m);
+        least = glm::min(least, receivers[k].position_m);
+        most = glm::max(most, receivers[k].position_m);
     }
+    around.middle = 0.5f * (least + most);
+    around.half = 0.5f * (most - least);
+    around.low = glm::min(around.low, least);
+    around.high = glm::max(around.high, most);
     around.low -= reach;
     around.high += reach;
+    around.four = FourPoints(around.points);
     return around;
 }
 
@@ -229,22 +229,89 @@ NearPolygon NearChooser::part_of(std::uint32_t number, bool back, const Surround
     return polygon;
 }
 
+namespace {
+
+// Of what stands on a patch or near it, by area: a long strip lights a strip of the patch as wide as itself, whatever the
+// patch's size; from h away A / (pi h^2) of that.
+float strip_square(float area, float nearest2, float patch_area)
+{
+    const float far = std::max(std::numbers::pi_v<float> * nearest2, area);
+    return kStripSquare * area * (area / far) / std::max(patch_area, area);
+}
+
+}  // namespace
+
+// A form factor is at most the area over pi times the distance squared, times both cosines. The face is taken as the box
+// around what the surroundings hold of it.
+float NearChooser::most_square(std::uint32_t number, bool back, const Surroundings& around) const
+{
+    constexpr float kRounding = 1e-6f, kMore = 1.001f, kMoreFactor = 1e-3f, kLeast_m = 1e-6f;
+    const NearFace& face = faces_.faces[number];
+    const NearPolygon& polygon = face.polygon;
+    const glm::vec3 n = back ? -face.normal : face.normal;
+    glm::vec3 low = polygon.corner[0], high = low;
+    for (int k = 1; k < polygon.count; ++k) {
+        low = glm::min(low, polygon.corner[static_cast<std::size_t>(k)]);
+        high = glm::max(high, polygon.corner[static_cast<std::size_t>(k)]);
+    }
+    low = glm::max(low, around.low);
+    high = glm::min(high, around.high);
+    // Of coordinates, as products of them are rounded.
+    const glm::vec3 largest = glm::max(glm::abs(around.low), glm::abs(around.high));
+    const float margin = kRounding * (1.0f + largest.x + largest.y + largest.z);
+    // Not one of them is in front where their box is not.
+    if (glm::dot(around.middle - polygon.corner[0], n) + glm::dot(around.half, glm::abs(n)) + margin <= 0.0f) return 0.0f;
+    const glm::vec3 size = glm::max(high - low, 0.0f);
+    float area = area_m2(polygon);
+    for (int k = 0; k < 3; ++k) {
+        const float face_on = std::abs(n[k]);
+        if (face_on > 0.1f) area = std::min(area, size[(k + 1) % 3] * size[(k + 2) % 3] / face_on);
+    }
+    area *= kMore;
+    const float radius = 0.5f * std::sqrt(glm::dot(size, size)) * kMore + margin;
+    const Four3 middle = all3(0.5f * (low + high)), front = all3(n), corner = all3(polygon.corner[0]);
+    const Four zero = all(0.0f), one = all(1.0f), over_pi = all(area / std::numbers::pi_v<float>);
+    Four nearest2 = all(std::numeric_limits<float>::max()), sum = zero;
+    const auto groups = around.four.position_m.size();
+    for (std::size_t group = 0; group < groups; ++group) {
+        const Four3 &at = around.four.position_m[group], &up = around.four.normal[group];
+        const Four before = dot(at - corner, front) + all(margin);
+        Four highest = all(std::numeric_limits<float>::lowest());
+        for (int k = 0; k < polygon.count; ++k)
+            highest = larger(dot(all3(polygon.corner[static_cast<std::size_t>(k)]) - at, up), highest);
+        highest += all(margin);
+        const Signs sees = (before > zero) & (highest > zero);
+        if (none(sees)) continue;
+        const Four3 way = middle - at;
+        const Four least = larger(square_root(dot(way, way)) - all(radius), all(kLeast_m));
+        const Four beside = larger(least - all(around.spacing), zero);
+        nearest2 = sees ? smaller(beside * beside, nearest2) : nearest2;
+        const Four square = least * least;
+        const Four cosines = smaller(before / least, one) * smaller(highest / least, one);
+        const Four factor = smaller(over_pi / square * cosines + all(kMoreFactor), one);
+        const Signs counts = sees & (all(area) >= all(0.99f * kFarFactor) * square);
+        sum += counts ? factor * factor : zero;
+    }
+    float least2 = std::numeric_limits<float>::max(), all_points = 0.0f;
+    for (int lane = 0; lane < 4; ++lane) {
+        least2 = std::min(least2, nearest2[lane]);
+        all_points += sum[lane];
+    }
+    if (least2 == std::numeric_limits<float>::max()) return 0.0f;
+    return kMore * std::max(all_points / static_cast<float>(around.points.size()), strip_square(area, least2, around.area));
+}
+
 // What of a face the points see, and the mean of its form factor squared over the patch: by the points themselves, and
-// because they lie apart, for what stands on the patch or near it by area: a long strip lights a strip of the patch as
-// wide as itself, whatever the patch's size; from h away A / (pi h^2) of that.
+// because they lie apart, for what stands on the patch or near it by area.
 std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool back, const Surroundings& around,
                                                     float least_square) const
 {
     const NearFace& face = faces_.faces[number];
     const glm::vec3 n = back ? -face.normal : face.normal;
-    const auto strip_square = [&](float area, float nearest2) {
-        const float far = std::max(std::numbers::pi_v<float> * nearest2, area);
-        return kStripSquare * area * (area / far) / std::max(around.area, area);
-    };
     // Of what is too small for the patch's size the points alone tell, those from which it is not.
     const float whole_area = area_m2(face.polygon);
     const Sphere whole = sphere_around(face.polygon);
-    const bool small = strip_square(whole_area, 0.0f) < least_square;
+    const bool small = strip_square(whole_area, 0.0f, around.area) < least_square;
     const auto seen_small = [](const Sphere& sphere, float area, const SamplePoint& p) {
         const glm::vec3 way = sphere.middle - p.position_m;
         const float least = std::max(std::sqrt(glm::dot(way, way)) - sphere.radius, 0.0f);
@@ -260,7 +327,7 @@ std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool b
     if (polygon.count < 3) return std::nullopt;
     const float area = area_m2(polygon);
     if (!(area > kSmallest_m2)) return std::nullopt;
-    const bool by_area = !(strip_square(area, 0.0f) < least_square);
+    const bool by_area = !(strip_square(area, 0.0f, around.area) < least_square);
     const auto corners = corners_of(polygon);
     const glm::vec3 middle = point_in(corners, 0.5f, 0.5f);
     float radius2 = 0.0f;
@@ -268,37 +335,50 @@ std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool b
     const float radius = std::sqrt(radius2);
     float nearest2 = std::numeric_limits<float>::max(), square = 0.0f, factors = 0.0f;
     glm::vec3 heart(0.0f);
-    for (const SamplePoint& p : around.points) {
-        const glm::vec3 way = middle - p.position_m;
-        if (!(glm::dot(way, n) < 0.0f)) continue;
+    const Four zero = all(0.0f);
+    for (std::size_t first = 0; first < around.points.size(); first += 4) {
+        const Four3 &at = around.four.position_m[first / 4], &up = around.four.normal[first / 4];
+        const Four3 way = all3(middle) - at;
         // Neither seen by more than can be left out nor nearer than another's.
-        const float least = std::max(std::sqrt(glm::dot(way, way)) - radius, 0.0f);
-        const float least_beside = std::max(least - around.spacing, 0.0f);
-        if (area < kFarFactor * least * least && (!by_area || least_beside * least_beside >= nearest2)) continue;
-        float lowest = std::numeric_limits<float>::max(), highest = std::numeric_limits<float>::lowest();
+        const Four least = larger(square_root(dot(way, way)) - all(radius), zero);
+        const Four least_beside = larger(least - all(around.spacing), zero);
+        const Signs seen_much = all(area) >= all(kFarFactor) * least * least;
+        Signs counts = dot(way, all3(n)) < zero;
+        counts &= by_area ? seen_much | (least_beside * least_beside < all(nearest2)) : seen_much;
+        if (none(counts)) continue;
+        Four lowest = all(std::numeric_limits<float>::max()), highest = all(std::numeric_limits<float>::lowest());
         for (int k = 0; k < polygon.count; ++k) {
-            const float h = glm::dot(polygon.corner[static_cast<std::size_t>(k)] - p.position_m, p.normal);
-            lowest = std::min(lowest, h);
-            highest = std::max(highest, h);
+            const Four h = dot(all3(polygon.corner[static_cast<std::size_t>(k)]) - at, up);
+            lowest = smaller(h, lowest);
+            highest = larger(h, highest);
         }
         // Level with the point: rounding.
-        if (!(highest > 1e-5f)) continue;
-        const float height = std::max(lowest, 0.0f);
-        const glm::vec3 nearest = nearest_in(polygon, n, p.position_m);
-        const float whole2 = glm::dot(nearest - p.position_m, nearest - p.position_m);
+        counts &= highest > all(1e-5f);
+        if (none(counts)) continue;
+        const Four height = larger(lowest, zero);
+        const Four3 nearest = nearest_in(polygon, n, at);
+        const Four3 to_nearest = nearest - at;
+        const Four whole2 = dot(to_nearest, to_nearest);
         // What faces the point, from hardly above its plane, is the back of its own sheet, over a fold of which it hangs.
-        if (glm::dot(n, p.normal) < kAgainst && highest < kSheet * patches_.cell_m + kHardly * std::sqrt(whole2)) continue;
+        counts &= ~((dot(all3(n), up) < all(kAgainst)) &
+                    (highest < all(kSheet * patches_.cell_m) + all(kHardly) * square_root(whole2)));
+        if (none(counts)) continue;
         // Between its samples the patch goes on.
-        const float beside = std::max(std::sqrt(std::max(whole2 - height * height, 0.0f)) - around.spacing, 0.0f);
-        nearest2 = std::min(nearest2, height * height + beside * beside);
-        if (area < kFarFactor * whole2) continue;  // too small from here
-        const float factor = form_factor(corners, p.position_m, p.normal);
-        square += factor * factor / static_cast<float>(around.points.size());
-        heart += nearest * factor;
-        factors += factor;
+        const Four beside = larger(square_root(larger(whole2 - height * height, zero)) - all(around.spacing), zero);
+        const Four distance2 = height * height + beside * beside;
+        const Signs too_small = all(area) < all(kFarFactor) * whole2;  // from here
+        const Four factor = none(counts & ~too_small) ? zero : near_form_factors(corners, at, up);
+        for (int lane = 0; lane < 4 && first + static_cast<std::size_t>(lane) < around.points.size(); ++lane) {
+            if (counts[lane] == 0) continue;
+            nearest2 = std::min(nearest2, distance2[lane]);
+            if (too_small[lane] != 0) continue;
+            square += factor[lane] * factor[lane] / static_cast<float>(around.points.size());
+            heart += glm::vec3(nearest.x[lane], nearest.y[lane], nearest.z[lane]) * factor[lane];
+            factors += factor[lane];
+        }
     }
     if (nearest2 == std::numeric_limits<float>::max()) return std::nullopt;
-    square = std::max(square, strip_square(area, nearest2));
+    square = std::max(square, strip_square(area, nearest2, around.area));
     if (square < least_square) return std::nullopt;
     heart = factors > 0.0f ? glm::mix(heart / factors, middle, kTowardsMiddle) : middle;
     // What glows has edges and pictures.
@@ -314,27 +394,43 @@ std::vector<NearCandidate> NearChooser::candidates(std::uint32_t patch, std::spa
     for (std::uint32_t& t : near) t = faces_.of_triangle[t];
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    std::vector<NearCandidate> found;
-    // The largest kJudged so far, the least of them in front.
-    std::vector<float> largest;
-    float least_square = kLeastSquare;
+    // Those that may have the most first: what follows the largest kJudged is not looked at.
+    struct Side {
+        float most;
+        std::uint32_t face;
+        bool back;
+    };
+    std::vector<Side> sides;
     for (const std::uint32_t face : near) {
         const bool both = triangles_.double_sided(faces_.faces[face].triangles[0]);
         for (const bool back : {false, true}) {
             if (back && !both) continue;
-            const auto one = candidate(face, back, around, least_square);
-            if (!one) continue;
-            found.push_back(*one);
-            largest.push_back(one->square);
-            std::push_heap(largest.begin(), largest.end(), std::greater<>());
-            if (largest.size() <= kJudged) continue;
-            std::pop_heap(largest.begin(), largest.end(), std::greater<>());
-            largest.pop_back();
-            least_square = std::max(kLeastSquare, largest.front());
+            const float most = most_square(face, back, around);
+            if (!(most < kLeastSquare)) sides.push_back({most, face, back});
         }
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const NearCandidate& a, const NearCandidate& b) { return a.square > b.square; });
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return a.most != b.most ? a.most > b.most : a.face != b.face ? a.face < b.face : a.back < b.back;
+    });
+    std::vector<NearCandidate> found;
+    // The largest kJudged so far, the least of them in front.
+    std::vector<float> largest;
+    float least_square = kLeastSquare;
+    for (const Side& side : sides) {
+        if (side.most < least_square) break;
+        const auto one = candidate(side.face, side.back, around, least_square);
+        if (!one) continue;
+        found.push_back(*one);
+        largest.push_back(one->square);
+        std::push_heap(largest.begin(), largest.end(), std::greater<>());
+        if (largest.size() <= kJudged) continue;
+        std::pop_heap(largest.begin(), largest.end(), std::greater<>());
+        largest.pop_back();
+        least_square = std::max(kLeastSquare, largest.front());
+    }
+    std::sort(found.begin(), found.end(), [](const NearCandidate& a, const NearCandidate& b) {
+        return a.square != b.square ? a.square > b.square : a.face != b.face ? a.face < b.face : a.back < b.back;
+    });
     if (found.size() > kJudged) found.resize(kJudged);
     return found;
 }
@@ -375,7 +471,10 @@ std::vector<NearChoice> NearChooser::chosen(std::uint32_t patch, std::span<const
     if (order.size() > kTried) order.resize(kTried);
     const std::uint64_t hash = cell_hash(patches_.seed, patches_.key[patch]);
     std::vector<Tried> tried;
+    // The largest kKept so far, the least of them in front: what is worth no more if all of it is seen changes nothing.
+    std::vector<float> largest;
     for (const std::size_t i : order) {
+        if (largest.size() == kKept && merit[i] <= largest.front()) break;
         const NearCandidate& c = candidates[i];
         if (merit[i] < kLeastMerit || guesses[c.guess].sent.empty()) continue;
         const NearPolygon polygon = part_of(c.face, c.back, around);
@@ -384,6 +483,11 @@ std::vector<NearChoice> NearChooser::chosen(std::uint32_t patch, std::span<const
         const float left = merit[i] * seen * seen;
         if (seen == 0.0f || left < kLeastMerit) continue;
         tried.push_back({left, {c.face, c.back, corners_of(polygon), seen, guesses[c.guess].shown}});
+        largest.push_back(left);
+        std::push_heap(largest.begin(), largest.end(), std::greater<>());
+        if (largest.size() <= kKept) continue;
+        std::pop_heap(largest.begin(), largest.end(), std::greater<>());
+        largest.pop_back();
     }
     std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.merit > b.merit; });
     if (tried.size() > kKept) tried.resize(kKept);
@@ -458,10 +562,12 @@ float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon&
     const glm::vec3 n = front_of(corners);
     const float regular = patches_.level_cell_m(1);
     std::vector<std::pair<float, std::size_t>> order;
-    for (std::size_t k = 0; k < around.points.size(); ++k) {
-        const SamplePoint& p = around.points[k];
-        const float factor = form_factor(corners, p.position_m, p.normal);
-        if (factor > 0.0f) order.push_back({factor, k});
+    for (std::size_t k = 0; k < around.points.size(); k += 4) {
+        const Four factors = near_form_factors(corners, around.four.position_m[k / 4], around.four.normal[k / 4]);
+        for (std::size_t lane = 0; lane < 4 && k + lane < around.points.size(); ++lane) {
+            const float factor = factors[static_cast<int>(lane)];
+            if (factor > 0.0f) order.push_back({factor, k + lane});
+        }
     }
     std::stable_sort(order.begin(), order.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
     if (order.size() > kSightPoints) order.resize(kSightPoints);

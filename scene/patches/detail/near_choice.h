@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "scene/patches/detail/four.h"
 #include "scene/patches/detail/near_faces.h"
+#include "scene/patches/detail/near_four.h"
 #include "scene/patches/detail/near_sources.h"
 #include "scene/patches/near_light.h"
 
@@ -53,17 +54,23 @@ public:
                                    std::span<const NearCandidate> candidates,
                                    std::span<const NearGuess> guesses) const;
 
-private:
+    /// The points of a patch that are asked, and the box around that what is close lies in.
     struct Surroundings {
         std::vector<SamplePoint> points;
+        FourPoints four;  // the same ones
+        glm::vec3 middle, half;  // of the points' own box
         glm::vec3 low, high;
         float spacing, area;
     };
     Surroundings surroundings(std::uint32_t patch, std::span<const SamplePoint> receivers) const;
-    NearPolygon part_of(std::uint32_t face, bool back, const Surroundings& around) const;
+    /// At least the square of its candidate, for a fraction of the work; 0: it has none.
+    float most_square(std::uint32_t face, bool back, const Surroundings& around) const;
     /// Nothing where its square is below least_square.
     std::optional<NearCandidate> candidate(std::uint32_t face, bool back, const Surroundings& around,
                                            float least_square) const;
+
+private:
+    NearPolygon part_of(std::uint32_t face, bool back, const Surroundings& around) const;
     std::vector<float> merits(std::uint32_t patch, std::span<const NearCandidate> candidates,
                               std::span<const NearGuess> guesses) const;
     struct Look;

@@ -19,6 +19,20 @@ constexpr float kSmallest_m2 = 1e-8f;
 constexpr int kPartBits = 20;
 constexpr float kMostParts = 1000000.0f;
 
+// Of visibility bits, unit.
+const std::array<glm::vec3, 256>& sky_directions()
+{
+    static const std::array<glm::vec3, 256> directions = [] {
+        std::array<glm::vec3, 256> made;
+        for (std::size_t bit = 0; bit < made.size(); ++bit) {
+            const glm::vec3 raw = shared::visibility_raw_direction(static_cast<int>(bit));
+            made[bit] = raw / std::sqrt(glm::dot(raw, raw));
+        }
+        return made;
+    }();
+    return directions;
+}
+
 }  // namespace
 
 NearSources::NearSources(const Patches& patches, const Tracer& tracer, const NearFaces& faces, const GlowLinks* glow,
@@ -139,8 +153,7 @@ void NearSources::trace_sky(NearSource& source, std::span<const glm::vec3> point
     bool any = up, all = true;
     Tracer::Blocker last;
     const auto look = [&](std::size_t bit, bool known) {
-        const glm::vec3 raw = shared::visibility_raw_direction(static_cast<int>(bit));
-        const glm::vec3 d = raw / std::sqrt(glm::dot(raw, raw));
+        const glm::vec3& d = sky_directions()[bit];
         if (!(glm::dot(n, d) > 0.0f)) return;
         if (!known) {
             const glm::vec3 x = points[mixed(hash, bit) % points.size()];

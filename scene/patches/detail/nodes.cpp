@@ -33,6 +33,9 @@ void index_nodes(Patches& patches)
         if (parent != Patches::kNoNode && parent >= patches.count)
             below[parent - patches.count].push_back(node);
     }
+    patches.octants.assign(std::size_t{patches.interior} * 8, Patches::kNoNode);
+    for (std::size_t i = 0; i < below.size(); ++i)
+        for (const std::uint32_t node : below[i]) patches.octants[i * 8 + octant_of(cell_in(patches.key[node]), 0)] = node;
     patches.children.clear();
     patches.children_first.assign(1, 0);
     for (const auto& list : below) {
