@@ -146,8 +146,10 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     Wave flow;
     flow.lean = vec3(0.0);
     flow.up = 1.0;
-    if ((WATER & WATER_RIPPLES) != 0u && !is_steep() && frame.weather.rain * open > 0.0 && water.deep > 0.0) {
-        ripple = rings_on(at, water, open, fade);
+    if ((WATER & WATER_RIPPLES) != 0u && !is_steep()) {
+        const bool rings = frame.weather.rain * open > 0.0 && water.deep > 0.0;
+        const Rings all = rings_on(at, water, open, fade, rings);
+        if (rings) ripple = all;
     }
     if ((WATER & WATER_FLOWS) != 0u && max(water.anywhere, water.runs) > 0.0 && fade > 0.001) {
         flow = flow_wave(at, water, here.still);

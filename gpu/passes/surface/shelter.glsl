@@ -25,14 +25,14 @@ vec3 stray(SurfaceInput at)
     return flat_way - at.normal * dot(at.normal, flat_way);
 }
 
-// Adds what falls along one direction. lifted: off the surface.
-void fall_on(inout Exposure open, SurfaceInput at, vec4 lifted, FallConstants fall)
+// Adds what falls along one direction. lifted: off the surface. asks: a CPU reads for all pixels of a group, these for themselves.
+void fall_on(inout Exposure open, SurfaceInput at, vec4 lifted, FallConstants fall, bool asks)
 {
     const vec3 map = vec3(dot(fall.column, lifted), dot(fall.row, lifted), dot(fall.depth, lifted));
     // What lies beside the map is open, as its rim is (depth_quads.comp.glsl).
     const vec2 p = clamp(map.xy, vec2(0.0), vec2(float(SKY_MAP_SIZE - 1)));
     const ivec2 texel = ivec2(p);
-    const int place = (fall.layer * SKY_MAP_SIZE + texel.y) * SKY_MAP_SIZE + texel.x;
+    const int place = asks ? (fall.layer * SKY_MAP_SIZE + texel.y) * SKY_MAP_SIZE + texel.x : 0;
     const float seen = share_passed(texelFetch(shelter_quads, place).rg, map.z, p - vec2(texel));
     const float facing = facing_on_level(at.normal, fall.level);
     open.rain += fall.rain * seen * facing;
@@ -53,7 +53,7 @@ Exposure exposure_to_sky(SurfaceInput at)
     if (!shelters_are_known()) return Exposure(1.0, 1.0, 1.0);
     Exposure open = Exposure(0.0, 0.0, 0.0);
     const vec4 lifted = lifted_point(at);
-#define FALL(k) if (FALLS > k) fall_on(open, at, lifted, fall_of(k));
+#define FALL(k) if (FALLS > k) fall_on(open, at, lifted, fall_of(k), true);
     FALL(0) FALL(1) FALL(2) FALL(3) FALL(4) FALL(5) FALL(6) FALL(7)
     FALL(8) FALL(9) FALL(10) FALL(11) FALL(12) FALL(13) FALL(14) FALL(15)
 #undef FALL
@@ -95,7 +95,7 @@ PlaceAnswer place_answer(SurfaceInput at, uint number, bool beyond)
         const vec4 b = uintBitsToFloat(texelFetch(place_states, from + 1));
         const vec4 c = uintBitsToFloat(texelFetch(place_states, from + 2));
         const vec4 d = uintBitsToFloat(texelFetch(place_states, from + 3));
-        const vec4 e = uintBitsToFloat(texelFetch(place_states, from + 4));
+        const vec4 e = uintBitsToFloat(texelFetch(place_states, state ? from : from + 4));  // not the next state, from another line
         answer.first = state ? a : answer.first;
         answer.second = state ? b : answer.second;
         answer.last = state ? d : answer.last;
@@ -107,7 +107,7 @@ PlaceAnswer place_answer(SurfaceInput at, uint number, bool beyond)
         fall.rain = d.w;
         fall.snow = e.x;
         fall.layer = state ? 0 : int(e.y);
-        if (!state) fall_on(answer.open, at, lifted, fall);
+        if (!state) fall_on(answer.open, at, lifted, fall, !state);
     } while (++k < turns);
     return answer;
 }

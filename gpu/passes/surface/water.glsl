@@ -86,9 +86,10 @@ struct Rings {
     float lost;  // variance of their slopes that the normal does not show
 };
 
-Rings rings_on(SurfaceInput at, StandingWater water, float open, float fade)
+// A CPU reads for all pixels of a group: those without standing water, `asks`, read one place.
+Rings rings_on(SurfaceInput at, StandingWater water, float open, float fade, bool asks)
 {
-    const float tiling = frame.look.ripple_tiling;
+    const float tiling = asks ? frame.look.ripple_tiling : 0.0;
     // Of whole levels a CPU reads one: by the shorter side of the pixel, which is all that is left of rings a few metres
     // away. Along the longer one samples fall on different sides of them, as glints do.
     const vec2 dx = at.position_dx.xz * tiling;
