@@ -22,11 +22,10 @@ namespace {
 class Stage {
 public:
     Stage(const Device& device, VkShaderStageFlagBits stage, const std::string& name,
-          std::span<const std::uint32_t> code, const std::vector<Specialization>& constants,
-          const ContentCache& cache)
+          const ShaderCode& code, const std::vector<Specialization>& constants, const ContentCache& cache)
     {
-        const std::vector<std::uint32_t> own = specialized(code, constants, cache);
-        const std::span<const std::uint32_t> words = own.empty() ? code : own;
+        const std::vector<std::uint32_t> own = specialized(code.words, constants, cache, code.prepared);
+        const std::span<const std::uint32_t> words = own.empty() ? code.words : own;
         VkShaderModuleCreateInfo module{};
         module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
         module.codeSize = words.size_bytes();
@@ -228,13 +227,12 @@ bool PipelineCache::made_many()
     return std::exchange(made_, 0) >= kMany;
 }
 
-std::span<const std::uint32_t> PipelineCache::code(const std::string& shader) const
+ShaderCode PipelineCache::code(const std::string& shader) const
 {
-    const auto added = added_.find(shader);
-    const auto words = added != added_.end() ? std::span<const std::uint32_t>(added->second)
-                                             : embedded_shader(shader);
-    if (words.empty()) throw std::logic_error("no embedded shader " + shader);
-    return words;
+    if (const auto added = added_.find(shader); added != added_.end()) return {added->second, {}};
+    const EmbeddedShader* embedded = find_embedded_shader(shader);
+    if (!embedded) throw std::logic_error("no embedded shader " + shader);
+    return {embedded->code, embedded->prepared};
 }
 
 // A list of pipelines that threads work through, and so does who waits for one.
@@ -325,7 +323,7 @@ std::size_t PipelineCache::prepare(const std::vector<ComputeDesc>& wanted)
     }
     // The long ones first.
     std::stable_sort(tasks.begin(), tasks.end(), [this](const auto& a, const auto& b) {
-        return code(a->desc.shader).size() > code(b->desc.shader).size();
+        return code(a->desc.shader).words.size() > code(b->desc.shader).words.size();
     });
     const std::size_t missing = tasks.size();
     if (missing > 0) ahead_ = std::make_unique<Ahead>(*this, std::move(tasks));

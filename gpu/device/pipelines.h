@@ -77,6 +77,11 @@ struct ComputeDesc {
     std::vector<BindingTypes> sets;
 };
 
+struct ShaderCode {
+    std::span<const std::uint32_t> words;
+    std::span<const std::uint32_t> prepared;  ///< of them, where that was done before (gpu/device/prepared.h)
+};
+
 /// Makes pipelines on first use and keeps them, by content.
 class PipelineCache {
 public:
@@ -107,7 +112,7 @@ public:
 private:
     class Ahead;  // the threads of prepare()
     std::unique_ptr<Pipeline> make_compute(const ComputeDesc& desc, VkPipelineLayout layout) const;
-    std::span<const std::uint32_t> code(const std::string& shader) const;
+    ShaderCode code(const std::string& shader) const;
     VkPipelineLayout layout(const std::vector<BindingTypes>& sets);
 
     const Device* device_;

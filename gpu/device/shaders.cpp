@@ -2,12 +2,18 @@
 
 namespace petrichor::gpu {
 
-std::span<const std::uint32_t> embedded_shader(const std::string& name)
+const EmbeddedShader* find_embedded_shader(const std::string& name)
 {
     for (const EmbeddedShader& shader : embedded_shaders()) {
-        if (shader.name == name) return shader.code;
+        if (shader.name == name) return &shader;
     }
-    return {};
+    return nullptr;
+}
+
+std::span<const std::uint32_t> embedded_shader(const std::string& name)
+{
+    const EmbeddedShader* shader = find_embedded_shader(name);
+    return shader ? shader->code : std::span<const std::uint32_t>();
 }
 
 }  // namespace petrichor::gpu

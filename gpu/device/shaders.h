@@ -12,9 +12,12 @@ namespace petrichor::gpu {
 struct EmbeddedShader {
     std::string name;
     std::span<const std::uint32_t> code;
+    std::span<const std::uint32_t> prepared;  ///< prepared() of it; empty in a build without SPIRV-Tools
 };
 std::span<const EmbeddedShader> embedded_shaders();
-/// Empty when there is none.
+/// Null when there is none.
+const EmbeddedShader* find_embedded_shader(const std::string& name);
+/// Its code; empty when there is none.
 std::span<const std::uint32_t> embedded_shader(const std::string& name);
 
 }  // namespace petrichor::gpu

@@ -1,8 +1,6 @@
 #include "gpu/device/specialize.h"
 
 #ifdef PETRICHOR_SPIRV_TOOLS
-#include <spirv-tools/optimizer.hpp>
-
 #include <condition_variable>
 #include <cstring>
 #include <functional>
@@ -14,9 +12,9 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "gpu/device/by_value.h"
 #include "gpu/device/droppable.h"
-#include "gpu/device/small_functions.h"
+#include "gpu/device/prepared.h"
+#include "gpu/device/spirv_passes.h"
 #endif
 
 namespace petrichor::gpu {
@@ -31,57 +29,6 @@ bool can_specialize()
 namespace {
 
 constexpr const char* kCacheKind = "shaders";
-
-// Steps that a shader is taken through.
-class Passes {
-public:
-    Passes() : optimizer_(SPV_ENV_VULKAN_1_3)
-    {
-        optimizer_.SetMessageConsumer(
-            [](spv_message_level_t, const char*, const spv_position_t&, const char*) {});
-    }
-
-    // What was done to a shader that is kept.
-    void add_to(Hasher& hasher) const
-    {
-        for (const char* name : optimizer_.GetPassNames()) hasher.add(std::string(name));
-    }
-
-    // Empty for one that does not hold. Passes take for granted that it does; what passes made is not asked again.
-    std::vector<std::uint32_t> run(std::span<const std::uint32_t> code, bool made_by_passes = false) const
-    {
-        spvtools::OptimizerOptions options;
-        spvtools::ValidatorOptions rules;
-        rules.SetScalarBlockLayout(true);
-        options.set_validator_options(rules);
-        options.set_run_validator(!made_by_passes);
-        std::vector<std::uint32_t> words;
-        if (!optimizer_.Run(code.data(), code.size(), &words, options)) return {};
-        return words;
-    }
-
-protected:
-    spvtools::Optimizer optimizer_;
-};
-
-// Variables of each function become values where no other function sees them (with by_value() that is most of
-// them). It is the same for all constants, so it is done once: half of the time of what follows.
-class Prepare : public Passes {
-public:
-    Prepare()
-    {
-        optimizer_.RegisterPass(spvtools::CreateInlineExhaustivePass())
-            .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
-            .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
-            .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
-            .RegisterPass(spvtools::CreateScalarReplacementPass(0))
-            .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
-            .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
-            .RegisterPass(spvtools::CreateSSARewritePass())
-            .RegisterPass(spvtools::CreateCCPPass())
-            .RegisterPass(spvtools::CreateAggressiveDCEPass());
-    }
-};
 
 // Cuts a shader down to what these constants leave of it.
 class CutDown : public Passes {
@@ -160,16 +107,10 @@ private:
     std::string key_;
 };
 
-}  // namespace
-
-namespace {
-
-// What these passes make of a shader, from the cache if it is there.
-std::vector<std::uint32_t> made(const Passes& passes, std::span<const std::uint32_t> code, Hasher& hasher,
-                                const ContentCache& cache,
+// What is made of a shader, from the cache if it is there.
+std::vector<std::uint32_t> made(std::span<const std::uint32_t> code, Hasher& hasher, const ContentCache& cache,
                                 const std::function<std::vector<std::uint32_t>()>& make)
 {
-    passes.add_to(hasher);
     hasher.add(spvSoftwareVersionString());
     hasher.add_bytes(std::as_bytes(code));
     const std::string key = hasher.text();
@@ -187,28 +128,28 @@ std::vector<std::uint32_t> made(const Passes& passes, std::span<const std::uint3
     return words;
 }
 
-std::vector<std::uint32_t> prepared(std::span<const std::uint32_t> code, const ContentCache& cache)
+// A text that the program is given is prepared for its first pipeline.
+std::vector<std::uint32_t> prepared_or_kept(std::span<const std::uint32_t> code, const ContentCache& cache)
 {
-    const Prepare prepare;
-    const auto make = [&] {
-        return with_inlining(prepare.run(with_large_apart(with_droppable_shuffles(by_value(code)))));
-    };
-    if (!cache.on()) return make();
+    if (!cache.on()) return prepared(code);
     Hasher hasher;
-    hasher.add("prepared 3");
-    return made(prepare, code, hasher, cache, make);
+    hasher.add("prepared 4");
+    return made(code, hasher, cache, [&] { return prepared(code); });
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
                                        const std::vector<Specialization>& constants,
-                                       const ContentCache& cache)
+                                       const ContentCache& cache,
+                                       std::span<const std::uint32_t> prepared_before)
 {
     const CutDown cut_down(constants);
     const auto make = [&] {
-        const std::vector<std::uint32_t> words = prepared(code, cache);
-        return words.empty() ? words : with_shuffles_again(cut_down.run(words, true));
+        std::vector<std::uint32_t> own;
+        if (prepared_before.empty()) own = prepared_or_kept(code, cache);
+        const std::span<const std::uint32_t> words = prepared_before.empty() ? own : prepared_before;
+        return words.empty() ? own : with_shuffles_again(cut_down.run(words, true));
     };
     if (!cache.on()) return make();
     Hasher hasher;
@@ -216,7 +157,8 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
     for (const Specialization& constant : constants) {
         hasher.add_bytes(std::as_bytes(std::span(&constant, 1)));
     }
-    return made(cut_down, code, hasher, cache, make);
+    for (const char* name : cut_down.names()) hasher.add(std::string(name));
+    return made(code, hasher, cache, make);
 }
 
 #else
@@ -227,7 +169,8 @@ bool can_specialize()
 }
 
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t>,
-                                       const std::vector<Specialization>&, const ContentCache&)
+                                       const std::vector<Specialization>&, const ContentCache&,
+                                       std::span<const std::uint32_t>)
 {
     return {};
 }

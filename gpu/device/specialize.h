@@ -21,11 +21,12 @@ struct Specialization {
 /// which is most of the time that a pipeline takes. What constants decide is computed here: last
 /// bits may differ from those of a build without SPIRV-Tools.
 ///
-/// Kept in `cache` by content. Empty when this build has no SPIRV-Tools or they cannot read the
+/// `prepared` is what prepared() makes of the shader, where that is at hand. Kept in `cache` by content. Empty when this build has no SPIRV-Tools or they cannot read the
 /// shader: the driver does it all then.
 std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
                                        const std::vector<Specialization>& constants,
-                                       const ContentCache& cache = {});
+                                       const ContentCache& cache = {},
+                                       std::span<const std::uint32_t> prepared = {});
 
 /// True when this build was made with SPIRV-Tools.
 bool can_specialize();

@@ -10,6 +10,7 @@
 
 #include "gpu/device/by_value.h"
 #include "gpu/device/droppable.h"
+#include "gpu/device/prepared.h"
 #include "gpu/device/shaders.h"
 #include "gpu/device/small_functions.h"
 #include "gpu/frame/frame_words_io.h"
@@ -40,6 +41,11 @@ protected:
         ASSERT_FALSE(lighting.empty());
     }
     std::span<const std::uint32_t> lighting = embedded_shader("lighting.comp");
+    // The lighting shader, as pipelines ask for it.
+    std::vector<std::uint32_t> cut_down(const std::vector<Specialization>& constants, const ContentCache& cache = {}) const
+    {
+        return specialized(lighting, constants, cache, find_embedded_shader("lighting.comp")->prepared);
+    }
 };
 
 TEST_F(Specialize, WhatIsSwitchedOffIsGone)
@@ -48,7 +54,7 @@ TEST_F(Specialize, WhatIsSwitchedOffIsGone)
     const auto with_all = [this](std::uint32_t value) {
         std::vector<Specialization> all;
         for (std::uint32_t id = 0; id < 32; ++id) all.push_back({id, value});
-        return specialized(lighting, all);
+        return cut_down(all);
     };
     const auto off = with_all(0);
     const auto on = with_all(1);
@@ -62,7 +68,17 @@ TEST_F(Specialize, NoShaderOfOursIsLeftToTheDriver)
 {
     ASSERT_GT(embedded_shaders().size(), 50u);
     for (const EmbeddedShader& shader : embedded_shaders())
-        EXPECT_FALSE(specialized(shader.code, {}).empty()) << shader.name;
+        EXPECT_FALSE(specialized(shader.code, {}, {}, shader.prepared).empty()) << shader.name;
+}
+
+TEST_F(Specialize, TheBuildPreparesShadersAsTheProgramWould)
+{
+    for (const EmbeddedShader& shader : embedded_shaders()) EXPECT_FALSE(shader.prepared.empty()) << shader.name;
+    const EmbeddedShader* shader = find_embedded_shader("lighting.comp");
+    ASSERT_NE(shader, nullptr);
+    EXPECT_TRUE(std::ranges::equal(prepared(shader->code), shader->prepared));
+    const std::vector<Specialization> constants{{1, 1}};
+    EXPECT_EQ(specialized(shader->code, constants, {}, shader->prepared), specialized(shader->code, constants));
 }
 
 // Addresses stay where a function writes: what it only reads comes as a value, and it is the same shader.
@@ -94,7 +110,7 @@ TEST_F(Specialize, WordsThatNothingNeedsAreDropped)
     constexpr std::uint32_t kShuffle = 345, kExtract = 203;
     const auto needed = [this](std::vector<Specialization> constants) {
         constants.push_back({FRAME_SPEC_LANES, 8});
-        const auto words = specialized(lighting, constants);
+        const auto words = cut_down(constants);
         EXPECT_EQ(count_of(words, kExtract), count_of(lighting, kExtract)) << "no driver sees the other form";
         return count_of(words, kShuffle);
     };
@@ -160,12 +176,13 @@ TEST_F(Specialize, WhatIsKeptIsWhatWasMadeForEachConstant)
     const fs::path folder =
         fs::path(testing::TempDir()) / ("petrichor_specialize_" + std::to_string(::getpid()));
     const ContentCache cache(folder, 64u << 20);
-    const auto zero = specialized(lighting, {{1, 0}}, cache);
-    const auto one = specialized(lighting, {{1, 1}}, cache);
+    const auto zero = cut_down({{1, 0}}, cache);
+    const auto one = cut_down({{1, 1}}, cache);
     EXPECT_NE(zero, one);
+    EXPECT_EQ(cut_down({{1, 0}}, cache), zero);
+    EXPECT_EQ(cut_down({{1, 1}}, cache), one);
+    EXPECT_EQ(cut_down({{1, 1}}), one);
     EXPECT_EQ(specialized(lighting, {{1, 0}}, cache), zero);
-    EXPECT_EQ(specialized(lighting, {{1, 1}}, cache), one);
-    EXPECT_EQ(specialized(lighting, {{1, 1}}), one);
     EXPECT_GT(cache.size(), 0u);
     fs::remove_all(folder);
 }
