@@ -346,6 +346,7 @@ void add_street_materials(const DemoOptions& options, scene::Scene& scene, Kit& 
         material.specular = recipe.specular;
         material.double_sided = recipe.double_sided;
         material.diffuse_transmission = recipe.diffuse_transmission;
+        material.diffuse_transmission_of_base = recipe.diffuse_transmission > 0.0f;
         material.weather.porosity = recipe.porosity;
         material.weather.water_accumulation = recipe.water;
         material.weather.snow_accumulation = glm::vec2(0.0f, recipe.snow_influence);

@@ -30,6 +30,10 @@ void add_layer_textures(std::vector<MaterialTexture>& t)
         "diffuse_transmission_texture",
         {"KHR_materials_diffuse_transmission", "", "diffuseTransmissionTexture"},
         "alpha: times diffuse_transmission_factor"));
+    t.push_back(texture<&M::maps, &Maps::diffuse_transmission_color>(
+        "diffuse_transmission_color_texture",
+        {"KHR_materials_diffuse_transmission", "", "diffuseTransmissionColorTexture"},
+        "sRGB colour of what comes through"));
     t.push_back(texture<&M::maps, &Maps::transmission>(
         "transmission_texture", {"KHR_materials_transmission", "", "transmissionTexture"},
         "red: times transmission_factor"));
@@ -99,7 +103,7 @@ void add_layer_limits(const Scene& scene, std::vector<std::string>& lines)
         const bool lets_through = material.alpha_mode == AlphaMode::Blend || material.transmission > 0;
         const TextureUse* of_solids[] = {&m.clearcoat,       &m.clearcoat_roughness, &m.clearcoat_normal,
                                          &m.sheen_color,     &m.sheen_roughness,
-                                         &m.diffuse_transmission, &m.translucency, &m.skin_curvature,
+                                         &m.diffuse_transmission, &m.diffuse_transmission_color, &m.translucency, &m.skin_curvature,
                                          &m.second_lobe};
         if (lets_through && std::any_of(std::begin(of_solids), std::end(of_solids),
                                         [](const TextureUse* use) { return use->present(); })) {
@@ -107,6 +111,13 @@ void add_layer_limits(const Scene& scene, std::vector<std::string>& lines)
                             " lets light through: of its coat, sheen and so on the factors are shown, "
                             "not their textures");
         }
+        // One of these three has room beside the rest.
+        const bool through = m.diffuse_transmission_color.present() && !material.diffuse_transmission_of_base;
+        const bool sheen = m.sheen_color.present() || m.sheen_roughness.present();
+        if (through && m.second_lobe.present())
+            lines.push_back("material " + material.name + " has a second lobe: diffuse_transmission_color_texture is left out");
+        else if (through && sheen)
+            lines.push_back("material " + material.name + " has diffuse_transmission_color_texture: the textures of its sheen are left out");
     }
 }
 

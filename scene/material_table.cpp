@@ -70,6 +70,13 @@ void add_gltf_rows(std::vector<Row>& t)
         "diffuse_transmission_factor", 0, 1,
         {"KHR_materials_diffuse_transmission", "", "diffuseTransmissionFactor"},
         "share of the diffuse light that thin things such as leaves let through"));
+    t.push_back(number<&M::diffuse_transmission_color>(
+        "diffuse_transmission_color_factor", 0, 1,
+        {"KHR_materials_diffuse_transmission", "", "diffuseTransmissionColorFactor"},
+        "linear colour of that light in place of the base colour, times its texture"));
+    t.push_back(flag<&M::diffuse_transmission_of_base>(
+        "diffuse_transmission_of_base", {kWeather, "", "diffuseTransmissionOfBase"},
+        "it has the base colour, with those of the vertices and the weather on it, whatever its own is"));
     t.push_back(number<&M::transmission>(
         "transmission_factor", 0, 1, {"KHR_materials_transmission", "", "transmissionFactor"},
         "light that passes: what is behind shows, tinted, blurred by the roughness"));

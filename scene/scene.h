@@ -188,6 +188,7 @@ struct LayerTextures {
     TextureUse sheen_roughness;        ///< A
     TextureUse anisotropy;             ///< RG direction in the tangent frame, B strength
     TextureUse diffuse_transmission;   ///< A
+    TextureUse diffuse_transmission_color;  ///< sRGB
     TextureUse transmission;           ///< R
     TextureUse thickness;              ///< G
     TextureUse specular;               ///< A
@@ -235,6 +236,8 @@ struct Material {
     float specular = 1.0f;           ///< KHR_materials_specular factor
     glm::vec3 specular_color{1.0f};  ///< KHR_materials_specular colour
     float diffuse_transmission = 0.0f;  ///< KHR_materials_diffuse_transmission factor
+    glm::vec3 diffuse_transmission_color{1.0f};  ///< .. and the colour of what comes through
+    bool diffuse_transmission_of_base = false;  ///< it has the base colour instead, with vertex colours and weather
     float transmission = 0.0f;       ///< KHR_materials_transmission factor
     float thickness = 0.0f;          ///< KHR_materials_volume: of what light passes, mesh units
     float attenuation_distance_m = 0.0f;  ///< in it; 0: it is clear

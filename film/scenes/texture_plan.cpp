@@ -193,7 +193,7 @@ void plan_layers(scene::LayerTextures& maps, Planner& planner)
     plan_scalar(maps.translucency, planner);
     plan_scalar(maps.skin_curvature, planner);
     for (scene::TextureUse* color :
-         {&maps.sheen_color, &maps.specular_color, &maps.specular_glossiness})
+         {&maps.sheen_color, &maps.specular_color, &maps.specular_glossiness, &maps.diffuse_transmission_color})
         planner.use(*color, {.kind = Kind::Color});
     planner.use(maps.clearcoat_normal, {.kind = Kind::Normal});
     planner.use(maps.anisotropy, {.kind = Kind::Surface});

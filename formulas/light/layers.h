@@ -22,6 +22,7 @@ struct Layers {
     float anisotropy;       // 0 round .. 1
     vec3 tangent;           // along which highlights are long; unit, in the surface
     float transmitted;      // share of the diffuse light that comes out on the other side
+    vec3 through;           // its colour, without the share that is mirrored
     vec3 other_normal;      // unit: of the coat; of skin's diffuse light
     float coat_spared;      // of the coat's highlight, what a light has not, 0..1: fills shadows and shows none
 };
@@ -112,7 +113,7 @@ SHARED_FN float coat_fresnel(float cosine)
 
 // A base with layers over it, from the answer of the base alone: that of shade_lobe(), or of two lobes
 // (two_lobes.h). Arguments as of shade_layered_lobe().
-SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, float roughness, Layers layers)
+SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, float roughness, Layers layers)
 {
     const vec3 n = lobe.normal;
     const vec3 v = lobe.view;
@@ -151,26 +152,24 @@ SHARED_FN vec3 shade_layers_over(vec3 base, Lobe lobe, vec3 l, vec3 albedo, floa
             layers.coat * (1.0f - layers.coat_spared) * coat_fresnel(clamp(dot(l, h), 0.0f, 1.0f)) * coat_here * nl;
         base = base * below + splat3(mirrored);
     }
-    return base + albedo * (layers.transmitted / kPi * max(-facing, 0.0f));
+    return base + layers.through * (layers.transmitted / kPi * max(-facing, 0.0f));
 }
 
 // Reflected radiance per unit irradiance on a facing plane, times the cosine, of a base with layers; light
 // from behind comes through. Of a lobe whose diffuse part lacks what is transmitted.
-//   albedo      of the diffuse part before it is shared between the sides
 //   roughness   of the base, perceptual
-SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, vec3 albedo, float roughness, Layers layers)
+SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, float roughness, Layers layers)
 {
-    return shade_layers_over(shade_lobe(lobe, l), lobe, l, albedo, roughness, layers);
+    return shade_layers_over(shade_lobe(lobe, l), lobe, l, roughness, layers);
 }
 
 // The same for one light alone.
-//   diffuse   albedo without its specular share
-SHARED_FN vec3 shade_layers(vec3 n, vec3 v, vec3 l, vec3 albedo, vec3 diffuse, vec3 f0,
-                            float roughness, Layers layers)
+//   diffuse   albedo without its specular share, before it is shared between the sides
+SHARED_FN vec3 shade_layers(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float roughness, Layers layers)
 {
     const Lobe lobe =
         make_lobe(n, v, diffuse * (1.0f - layers.transmitted), f0, roughness * roughness);
-    return shade_layered_lobe(lobe, l, albedo, roughness, layers);
+    return shade_layered_lobe(lobe, l, roughness, layers);
 }
 
 // A direction within the surface for an angle of 0..pi, and back: the frame of Duff et al. 2017 about

@@ -144,7 +144,8 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.emissive_scale = frame.emissive_scale;
     c.occlusion_direct = s.occlusion_direct;
     c.horizon_fade = s.horizon_fade;
-    c.specular_aa = 0.5f * s.specular_aa;
+    // Samples show the variance between them; each is as wide as its share of the pixel.
+    c.specular_aa = 0.5f * s.specular_aa / static_cast<float>(std::max(s.samples, 1));
     c.specular_aa_limit = s.specular_aa_limit;
     c.grain_dither = {s.anisotropic_dither, s.anisotropic_dither_distance_m,
                       s.anisotropic_dither_fade_m};

@@ -58,17 +58,35 @@ bool scatters(const Material& m)
 }
 
 // LAYERS_... of a material. A roughness or a direction alone shows nothing.
+bool has_role(const std::array<std::uint32_t, LAYER_ROLE_WORDS>& roles, std::uint32_t role)
+{
+    return (roles[role / LAYER_ROLES_A_WORD] >> 4 * (role % LAYER_ROLES_A_WORD) & 15u) != 0;
+}
+
+// What the shares of its pixels have room for, as the surface resolve has it.
+std::uint32_t kind_of_shares(const std::array<std::uint32_t, LAYER_ROLE_WORDS>& roles)
+{
+    if (has_role(roles, LAYER_TEXTURE_SECOND_LOBE)) return SHARES_LOBES;
+    return has_role(roles, LAYER_TEXTURE_THROUGH) ? SHARES_THROUGH : SHARES_SHEEN;
+}
+
 // Whether its light lies along a tangent.
 bool has_grain(const Material& m)
 {
     return m.anisotropy > 0.0f || m.lighting_model == "hair";
 }
 
-// Its thickness is told in place of a tangent, and beside one, as where it lies, by shares that layers of glass have not, and a second lobe needs.
+// Its thickness is told in place of a tangent, and beside one by shares that layers of glass have not, and a second lobe needs.
 bool tells_film(const Material& m)
 {
-    const bool by_shares = m.maps.iridescence.present() || (has_grain(m) && m.maps.iridescence_thickness.present());
+    const bool by_shares = has_grain(m) && m.maps.iridescence_thickness.present();
     return m.iridescence > 0.0f && !(by_shares && (is_blended(m) || m.maps.second_lobe.present()));
+}
+
+// Layers of glass have no shares: where it lies is told in place of their metal.
+bool places_film(const Material& m)
+{
+    return tells_film(m) && is_blended(m) && m.maps.iridescence.present();
 }
 
 std::uint32_t layers_of(const Material& m)
@@ -197,8 +215,7 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         }
         material.layer_roles = layers.roles;
         // Without its texture there is none.
-        if ((layers.roles[LAYER_TEXTURE_SECOND_LOBE / LAYER_ROLES_A_WORD] >>
-             4 * (LAYER_TEXTURE_SECOND_LOBE % LAYER_ROLES_A_WORD) & 15u) == 0)
+        if (!has_role(layers.roles, LAYER_TEXTURE_SECOND_LOBE))
             sources_[i].maps.second_lobe = current_[i].maps.second_lobe = {};
         material.light_textures = layers.of_light;
         body_shares_ = body_shares_ || source.maps.thickness.present();
@@ -236,6 +253,7 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     if ((material.layers & LAYERS_HAIR) != 0u) c.anisotropy_strength = 1.0f;
     material.besides = (source.specular_workflow ? BESIDES_SPECULAR_WORKFLOW : 0u) |
                        (source.iridescence <= 0.0f ? 0u : (material.layers & LAYERS_IRIDESCENT) != 0u ? BESIDES_FILM_TOLD : BESIDES_IRIDESCENT) |
+                       ((material.layers & LAYERS_IRIDESCENT) != 0u && places_film(source) ? BESIDES_FILM_PLACED : 0u) |
                        (softens(source) ? BESIDES_SOFT_NORMAL : 0u) |
                        (c.anisotropy_strength > 0.0f ? BESIDES_ALONG : 0u) |
                        (one_read(source, c) ? BESIDES_ONE_READ : 0u) |
@@ -292,9 +310,11 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
         glm::vec4(m.translucency_color, m.translucency_shadow),
         glm::vec4(m.scatter_color, m.skin_curvature),
         {m.skin_curvature_scale, m.second.scatter_bias, m.second.scatter_power, mixes(m) ? 1.0f : 0.0f},
-        glm::vec4(m.second.scatter_color, (material.layers & LAYERS_SECOND_LOBE) != 0u ? 1.0f : 0.0f),
+        glm::vec4(m.second.scatter_color, static_cast<float>(kind_of_shares(material.layer_roles))),
         {m.iridescence, m.iridescence_ior, has_grain(m) && !m.maps.iridescence_thickness.present() ? m.iridescence_thickness_max_nm : m.iridescence_thickness_min_nm,
-         m.iridescence_thickness_max_nm}};
+         m.iridescence_thickness_max_nm},
+        glm::vec4(m.diffuse_transmission_color, static_cast<float>((m.diffuse_transmission_of_base ? ROW_THROUGH_OF_BASE : 0u) |
+                                                                (places_film(m) ? ROW_FILM_PLACED : 0u)))};
     std::memcpy(layers_->mapped + row * sizeof(texels), texels, sizeof(texels));
     return lighting_models_.count() + static_cast<std::uint32_t>(row);
 }

@@ -82,10 +82,12 @@ LayerSlots layer_slots_of(const Material& material, const std::vector<bool>& loa
         const auto texture = static_cast<std::size_t>(use.texture);
         if (!use.present() || texture >= loaded.size() || !loaded[texture] ||
             slots.uses.size() == LAYER_TEXTURE_SLOTS) return;
+        if (role == LAYER_TEXTURE_THROUGH && material.diffuse_transmission_of_base) return;
         slots.uses.push_back(&use);
         slots.roles[role / LAYER_ROLES_A_WORD] |= static_cast<std::uint32_t>(slots.uses.size())
                                                   << 4 * (role % LAYER_ROLES_A_WORD);
-        slots.of_light = slots.of_light || role < LAYER_TEXTURES_OF_LIGHT || role == LAYER_TEXTURE_SECOND_LOBE || role == LAYER_TEXTURE_IRIDESCENCE;
+        slots.of_light = slots.of_light || role < LAYER_TEXTURES_OF_LIGHT || role == LAYER_TEXTURE_SECOND_LOBE ||
+                         role == LAYER_TEXTURE_IRIDESCENCE || role == LAYER_TEXTURE_THROUGH;
     };
 #define LAYER_ROLE(role, name) take(role, #name);
     LAYER_TEXTURES(LAYER_ROLE)

@@ -151,7 +151,8 @@
     X(19, fourth_base_color_texture)     \
     X(20, fourth_normal_texture)         \
     X(21, fourth_metallic_roughness_texture) \
-    X(22, second_lobe_texture)
+    X(22, second_lobe_texture)           \
+    X(23, diffuse_transmission_color_texture)
 #define LAYER_TEXTURE_CLEARCOAT 0
 #define LAYER_TEXTURE_CLEARCOAT_ROUGHNESS 1
 #define LAYER_TEXTURE_CLEARCOAT_NORMAL 2
@@ -171,12 +172,13 @@
 #define LAYER_TEXTURE_THIRD 16   // three in a row: colour, normal, packed
 #define LAYER_TEXTURE_FOURTH 19
 #define LAYER_TEXTURE_SECOND_LOBE 22
-#define LAYER_TEXTURE_ROLES 23
+#define LAYER_TEXTURE_THROUGH 23  // colour of what comes through a thin sheet
+#define LAYER_TEXTURE_ROLES 24
 #define LAYER_ROLES_A_WORD 8  // four bits a role: 0 none, else the number of the slot from 1
 #define LAYER_ROLE_WORDS 3
 #define LAYER_TEXTURE_SLOTS 6
 #define MATERIAL_TEXTURE_SLOTS (TEXTURE_SLOTS + LAYER_TEXTURE_SLOTS)
-// Roles up to here, and those of the second lobe and of where a thin film is, are shares that lighting reads a pixel; how thick that is, too, along a grain.
+// Roles up to here, and those of the second lobe, of where a thin film is and of the colour of what comes through, are shares that lighting reads a pixel; how thick that is, too, along a grain.
 #define LAYER_TEXTURES_OF_LIGHT 9
 
 // What else a material's surface does, SURFACE_SPEC_BESIDES.
@@ -189,6 +191,7 @@
 #define BESIDES_WIDE_GROUND 64u // its colour varies over the land (formulas/weather/ground_tone.h)
 #define BESIDES_AS_CLEARED 128u  // it mirrors as glass does and has no grain: the payload of a cleared G-buffer
 #define BESIDES_FILM_TOLD 256u  // a thin film whose thickness stands where others have the turn of their tangent
+#define BESIDES_FILM_PLACED 512u  // .. and its share where others have their metal, which is told as reflectance
 
 // Indices of alpha_mode.
 #define ALPHA_OPAQUE 0u
@@ -244,9 +247,17 @@
 //   4  translucency_color, translucency_shadow
 //   5  scatter_color, skin_curvature
 //   6  skin_curvature_scale, second_scatter_bias, second_scatter_power, 1: two sets are mixed
-//   7  second_scatter_color, 1: it has a second lobe
+//   7  second_scatter_color, SHARES_..
 //   8  of a thin film: iridescence_factor, iridescence_ior, iridescence_thickness_minimum and _maximum
-#define LAYERS_TEXELS 9
+//   9  diffuse_transmission_color_factor, ROW_..
+#define LAYERS_TEXELS 10
+#define ROW_THROUGH_OF_BASE 1u  // what comes through has the base colour
+#define ROW_FILM_PLACED 2u      // where metal is told stands what share of the surface a thin film covers
+
+// What of its textures the shares of a pixel hold, where they have room for one of these (gpu/frame/layer_shares.glsl).
+#define SHARES_SHEEN 0u
+#define SHARES_LOBES 1u    // the second lobe's normal
+#define SHARES_THROUGH 2u  // the colour of what comes through
 
 // Which of them a material has.
 #define LAYERS_COAT 1u

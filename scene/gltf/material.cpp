@@ -209,10 +209,6 @@ Material read_material(const JsonObject& json, std::size_t number, TextureCollec
         if (holder) texture.edit(out) = textures.use(*holder, place.member);
     }
     for (const MaterialProperty& property : material_table()) read_property(property, json, out);
-    if (const auto thin = json.extension("KHR_materials_diffuse_transmission")) {
-        for (const char* color : {"diffuseTransmissionColorFactor", "diffuseTransmissionColorTexture"})
-            if (thin->has(color)) thin->warn(color, "is left out; what comes through has the base colour");
-    }
     read_specular_workflow(json, textures, out);
     read_shader(json, lighting_model_place(), out.lighting_model);
     read_shader(json, surface_place(), out.surface);

@@ -34,16 +34,28 @@ def run(*command):
     return done.stdout
 
 
-def pixels(petrichor, picture, folder):
-    """Red, green and blue of a picture, row after row."""
+def as_floats(petrichor, picture, folder):
+    """A picture as a DDS file: what is before its numbers, and those: four a pixel, row after row."""
     dds = folder / (picture.stem + "_pixels.dds")
     run(petrichor, "texture", "convert", picture, "-o", dds, "--format", "rgba32f")
     data = dds.read_bytes()
     height, width = struct.unpack_from("<2I", data, 12)
     if (width, height) != scenes.SIZE:
         sys.exit(f"{picture}: {width} x {height}, wanted {scenes.SIZE}")
-    values = struct.unpack(f"<{4 * width * height}f", data[-16 * width * height:])
+    many = 4 * width * height
+    return data[:-4 * many], struct.unpack(f"<{many}f", data[-4 * many:])
+
+
+def pixels(petrichor, picture, folder):
+    """Red, green and blue of a picture, row after row."""
+    _, values = as_floats(petrichor, picture, folder)
     return [values[i:i + 3] for i in range(0, len(values), 4)]
+
+
+def add(petrichor, pictures, out, folder):
+    """Their sum, a DDS file."""
+    read = [as_floats(petrichor, picture, folder) for picture in pictures]
+    out.write_bytes(read[0][0] + b"".join(struct.pack("<f", sum(all_of)) for all_of in zip(*(values for _, values in read))))
 
 
 def png(path, linear, scale):
@@ -115,8 +127,17 @@ def accept(petrichor, name, folder, samples):
     full = folder / f"{name}_full.exr"
     if name in scenes.LOADED:
         loaded(petrichor, name, folder)
-    run("blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "--python", HERE / "render_cycles.py", "--", name, full, samples,
-        *{"street": [folder / "street.glb"], "helmet": [folder / "helmet.gltf"]}.get(name, []))
+    def cycles(out, samples, *more):
+        run("blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "--python", HERE / "render_cycles.py", "--", name, out, samples, *more)
+
+    if name == "helmet":  # sun and sky apart, since the Fresnel of its facets is told for either; the sun has less noise
+        parts = [folder / f"{name}_{light}.exr" for light in ("sun", "sky")]
+        for part, light, many in zip(parts, ("sun", "sky"), (max(int(samples) // 4, 1), samples)):
+            cycles(part, many, folder / "helmet.gltf", light)
+        full = full.with_suffix(".dds")
+        add(petrichor, parts, full, folder)
+    else:
+        cycles(full, samples, *{"street": [folder / "street.glb"]}.get(name, []))
     run(petrichor, "texture", "convert", full, "-o", HERE / f"{name}.exr", "--bits", "16")
     if name == "street":
         SHOWN.write_text(of_street(folder) + "\n")

@@ -386,7 +386,7 @@ LIMITS = {
     "anisotropy": 0.035,  # the fit of light between facets along a grain, and the reference's noise
     "turned anisotropy": 0.035,  # the same
     "iridescent metal": 0.025,  # light between facets
-    "rough body": 0.03,  # a disc in place of GGX's lobe
+    "rough body": 0.02,  # 32 places of the lobe, each of one facet
     "sheen in even light": 0.02,  # the polynomial of the fibres' albedo
     "film by Airy's sum": 0.05,   # the extension's own approximation
 }

@@ -1,8 +1,8 @@
 """Renders a scene of scenes.py with Cycles, inside Blender:
 
-    blender -b --factory-startup -noaudio --python render_cycles.py -- NAME OUT.exr [SAMPLES [FILE]]
+    blender -b --factory-startup -noaudio --python render_cycles.py -- NAME OUT.exr [SAMPLES [FILE [LIGHT]]]
 
-FILE: the glTF file of the street or of the helmet.
+FILE: the glTF file of the street or of the helmet; LIGHT: sun or sky, alone.
 """
 import json
 import math
@@ -17,6 +17,7 @@ import layers  # noqa: E402
 import scenes  # noqa: E402
 
 name, out, *rest = sys.argv[sys.argv.index("--") + 1:]
+light = rest[2] if len(rest) > 2 else None
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
 
@@ -174,11 +175,81 @@ def build(told):
     scene.camera = eye
 
 
-def as_gltf_says(material, told, facets):
+def grazing():
+    """What Schlick's law has beside the reflectance at normal incidence, in the mean over the lobe: of the cosine to the eye and the roughness."""
+    import numpy
+    size, many = 48, 4096
+    table = numpy.zeros((size, size, 4), numpy.float32)
+    turn = 2.0 * numpy.pi * numpy.modf(numpy.arange(many) * 0.6180339887)[0]
+    part = (numpy.arange(many) + 0.5) / many
+    for row in range(size):
+        alpha = max((row + 0.5) / size, 0.03) ** 2
+        nh = numpy.sqrt((1.0 - part) / (1.0 + (alpha * alpha - 1.0) * part))  # facets as many as there are of each slope
+        side = numpy.sqrt(1.0 - nh * nh)
+        for column in range(size):
+            nv = (column + 0.5) / size
+            vh = nh * nv + side * numpy.cos(turn) * numpy.sqrt(1.0 - nv * nv)
+            nl = 2.0 * vh * nh - nv
+            seen = (vh > 0.0) & (nl > 0.0)
+            nl, vh, up = nl[seen], vh[seen], nh[seen]
+            leans = [numpy.sqrt(alpha * alpha + (1.0 - alpha * alpha) * c * c) for c in (nv, nl)]
+            weight = nl * vh / (up * (nv * leans[1] + nl * leans[0]))
+            table[row, column] = (weight * (1.0 - vh) ** 5).sum() / weight.sum()
+    image = bpy.data.images.new("grazing", size, size, float_buffer=True)
+    image.colorspace_settings.name = "Non-Color"
+    image.pixels.foreach_set(table.ravel())
+    image.pack()
+    return image
+
+
+def by_schlick(tree, metal, mirrored, light, links):
+    """The film of a dielectric and metal with Schlick's Fresnel, as glTF has it; Principled has that of a dielectric, of which rough facets
+    mirror a fifth more at 45 degrees. An even sky: in the mean over the lobe. The sun: as for the half vector between it and the camera."""
+    film, whole = tree.nodes.new("ShaderNodeBsdfGlossy"), tree.nodes.new("ShaderNodeBsdfGlossy")
+    film.distribution = whole.distribution = "MULTI_GGX"
+    links("Normal", film.inputs["Normal"], whole.inputs["Normal"])
+    links("Roughness", film.inputs["Roughness"], whole.inputs["Roughness"])
+    if light == "sun":
+        eye = [a - b for a, b in zip(scenes.HELMET["eye"], scenes.HELMET["at"])]
+        half = layers.unit([a + b for a, b in zip(layers.unit(eye), scenes.HELMET["towards"])])
+        edge = (1.0 - sum(a * b for a, b in zip(half, scenes.HELMET["towards"]))) ** 5
+        shown = mirrored + (1.0 - mirrored) * edge
+        # Cycles squares what goes on between facets (layers.walks()).
+        _, roots, parts = layers.walks((mirrored + (1.0 - mirrored) / 21.0,), [(shown,)], [1.0])
+        film.inputs["Color"].default_value = (*roots[0] * 3, 1.0)
+        share = tree.nodes.new("ShaderNodeMixShader")
+        share.inputs["Fac"].default_value = parts[0][0]
+        tree.links.new(film.outputs[0], share.inputs[2])
+        links("Base Color", whole.inputs["Color"])
+        return share, whole
+    # Of the cosine between what is mapped as normal and the eye.
+    place, texture, geometry = tree.nodes.new("ShaderNodeCombineXYZ"), tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeNewGeometry")
+    facing = tree.nodes.new("ShaderNodeVectorMath")
+    facing.operation = "DOT_PRODUCT"
+    tree.links.new(geometry.outputs["Incoming"], facing.inputs[0])
+    tree.links.new(geometry.outputs["Normal"], facing.inputs[1])
+    links("Normal", facing.inputs[1])
+    tree.links.new(facing.outputs["Value"], place.inputs["X"])
+    links("Roughness", place.inputs["Y"])
+    texture.image, texture.extension = bpy.data.images.get("grazing") or grazing(), "EXTEND"
+    tree.links.new(place.outputs[0], texture.inputs["Vector"])
+    for lobe in (film, whole):
+        mix = tree.nodes.new("ShaderNodeMixRGB")
+        mix.inputs["Color1"].default_value = (mirrored, mirrored, mirrored, 1.0)
+        mix.inputs["Color2"].default_value = (1.0, 1.0, 1.0, 1.0)
+        if lobe is whole:
+            links("Base Color", mix.inputs["Color1"])
+        tree.links.new(texture.outputs["Color"], mix.inputs["Fac"])
+        tree.links.new(mix.outputs[0], lobe.inputs["Color"])
+    return film, whole
+
+
+def as_gltf_says(material, told, facets, light):
     """glTF's own mix: Lambert under GGX, of which a share is mirrored and the rest scattered, and metal.
 
     Blender's importer makes one Principled shader, whose diffuse lobe is Burley's and has all of the base colour
     beside the highlight, so that more is sent back than comes in; of KHR_materials_specular it takes nothing over.
+    light: "sun" or "sky", where that is all there is; then the Fresnel is glTF's, too.
     """
     tree = material.node_tree
     metal = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled")
@@ -198,25 +269,30 @@ def as_gltf_says(material, told, facets):
     left.operation = "SCALE"
     left.inputs["Scale"].default_value = 1.0 - mirrored
     matt = tree.nodes.new("ShaderNodeBsdfDiffuse")
-    film = tree.nodes.new("ShaderNodeBsdfPrincipled")
-    metal.distribution = film.distribution = facets
-    film.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
-    film.inputs["Specular"].default_value = mirrored / 0.08
+    if light:
+        film, whole = by_schlick(tree, metal, mirrored, light, give)
+    else:
+        film, whole = tree.nodes.new("ShaderNodeBsdfPrincipled"), metal
+        metal.distribution = film.distribution = facets
+        film.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+        film.inputs["Specular"].default_value = mirrored / 0.08
     both = tree.nodes.new("ShaderNodeAddShader")
     mixed = tree.nodes.new("ShaderNodeMixShader")
     give("Base Color", left.inputs[0])
-    give("Normal", matt.inputs["Normal"], film.inputs["Normal"])
-    give("Roughness", film.inputs["Roughness"])
+    give("Normal", matt.inputs["Normal"])
+    if not light:
+        give("Normal", film.inputs["Normal"])
+        give("Roughness", film.inputs["Roughness"])
     give("Metallic", mixed.inputs["Fac"])
     for link in [k for k in tree.links if k.to_socket == metal.inputs["Metallic"]]:
         tree.links.remove(link)
     metal.inputs["Metallic"].default_value = 1.0
     for source, target in ((left.outputs[0], matt.inputs["Color"]), (matt.outputs[0], both.inputs[0]), (film.outputs[0], both.inputs[1]),
-                           (both.outputs[0], mixed.inputs[1]), (metal.outputs[0], mixed.inputs[2]), (mixed.outputs[0], output.inputs["Surface"])):
+                           (both.outputs[0], mixed.inputs[1]), (whole.outputs[0], mixed.inputs[2]), (mixed.outputs[0], output.inputs["Surface"])):
         tree.links.new(source, target)
 
 
-def load(path, by):
+def load(path, by, light):
     """By Blender's own importer, whose z is up; of its lights none is kept."""
     import numpy
     numpy.bool = bool  # which it asks for by a name that is gone
@@ -224,7 +300,7 @@ def load(path, by):
     for thing in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         bpy.data.objects.remove(thing)
     sun = bpy.data.lights.new("sun", "SUN")
-    sun.energy, sun.angle = by["lux"], 0.0
+    sun.energy, sun.angle = by["lux"] if light != "sky" else 0.0, 0.0
     thing = bpy.data.objects.new("sun", sun)
     scene.collection.objects.link(thing)
     x, y, z = by["towards"]
@@ -232,14 +308,16 @@ def load(path, by):
     data = pathlib.Path(path).read_bytes()
     for told in (scenes.document(data) if path.endswith(".glb") else json.loads(data))["materials"]:
         if told["name"] in bpy.data.materials:
-            as_gltf_says(bpy.data.materials[told["name"]], told, by["facets"])
+            as_gltf_says(bpy.data.materials[told["name"]], told, by["facets"], light)
     scene.camera = next(o for o in bpy.data.objects if o.type == "CAMERA" and o.name.startswith("main"))
     scene.camera.data.sensor_fit, scene.camera.data.angle_y = "VERTICAL", by["fov"]
 
 
 if name in scenes.LOADED:
     sky, bounces = scenes.LOADED[name]["sky"], 8
-    load(rest[1], scenes.LOADED[name])
+    load(rest[1], scenes.LOADED[name], light)
+    if light == "sun":
+        sky = 0.0
 else:
     told = scenes.SCENES[name]()
     sky, bounces = told["sky"], told["bounces"]

@@ -173,7 +173,7 @@ TEST(FacetWalk, AlongAGrainItGoesByItsLength)
                 layers.tangent = glm::vec3(1, 0, 0);
                 const Lobe alone = make_lobe(kUp, glm::vec3(eye), glm::vec3(0.0f), kWhite, across);
                 const auto sent = [&](const Lobe& lobe) {
-                    return by_formula([&](const glm::vec3& l) { return shade_layered_lobe(lobe, l, glm::vec3(0.0f), roughness, layers); });
+                    return by_formula([&](const glm::vec3& l) { return shade_layered_lobe(lobe, l, roughness, layers); });
                 };
                 const Sent all = sent(with_light_along_grain(alone, roughness, layers.tangent, anisotropy));
                 EXPECT_LT(error(all, walked), 0.19) << roughness << " " << anisotropy << " " << eye.x << " " << eye.z;

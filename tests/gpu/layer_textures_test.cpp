@@ -99,6 +99,12 @@ TEST_F(LayerTextures, AreSharesOfTheirFactors)
          TexelFormat::Rgba8Srgb},
         {"diffuse_transmission", &L::diffuse_transmission,
          [](Material& m, float f) { m.diffuse_transmission = 0.8f * f; }},
+        {"diffuse_transmission_color", &L::diffuse_transmission_color,
+         [](Material& m, float f) {
+             m.diffuse_transmission = 0.8f;
+             m.diffuse_transmission_color = glm::vec3(0.3f, 0.6f, 0.9f) * f;
+         },
+         TexelFormat::Rgba8Srgb},
         {"specular", &L::specular, [](Material& m, float f) { m.specular = f; }},
         {"specular_color", &L::specular_color,
          [](Material& m, float f) {
@@ -489,7 +495,7 @@ TEST_F(LayerTextures, AThinFilmIsColouredByEachLampAlongAGrainAndOnHair)
                     const auto seen = [&](const glm::vec3& sent_on, const glm::vec3& f0) {
                         shared::Lobe lobe = shared::with_light_along_grain(shared::make_lobe(up, to_eye, glm::vec3(0.0f), sent_on, 0.25f), 0.5f, layers.tangent, 0.6f);
                         lobe.f0 = f0;
-                        return shared::shade_layered_lobe(lobe, to_lamp, glm::vec3(0.0f), 0.5f, layers);
+                        return shared::shade_layered_lobe(lobe, to_lamp, 0.5f, layers);
                     };
                     wanted = seen(shared::filmed_mean_f0(film), at_half) / seen(base, base);
                 }
@@ -500,6 +506,52 @@ TEST_F(LayerTextures, AThinFilmIsColouredByEachLampAlongAGrainAndOnHair)
             }
             EXPECT_GT(most, (hair ? 1.04f : 1.3f) * least) << hair << textured;
         }
+    }
+}
+
+// Where a texture says where it lies, too: on glass, and beside a second lobe (which is as the first here).
+TEST_F(LayerTextures, AThinFilmThatATexturePlacesIsColouredByEachLamp)
+{
+    frame.sky.sun_elevation_rad = -1.0f;
+    frame.settings.image_based_light = false;
+    frame.settings.width = frame.settings.height = 47;
+    const glm::vec3 base(0.6f, 0.55f, 0.5f), to_eye = glm::normalize(glm::vec3(0, 1, 1));
+    const std::vector<Texture> textures{halves({160, 64, 0, 255}, {160, 64, 0, 255}), halves({128, 128, 255, 128}, {128, 128, 255, 128})};
+    for (const bool glass : {true, false}) {
+        Material plain = plain_material(base, 0.5f, 1.0f);
+        if (glass) {
+            plain.alpha_mode = AlphaMode::Blend;
+            plain.base_color.a = 0.7f;
+        } else {
+            plain.maps.second_lobe.texture = static_cast<scene::TextureIndex>(1);
+        }
+        Material filmed = plain;
+        filmed.iridescence = 0.8f;
+        filmed.iridescence_ior = 1.5f;
+        filmed.iridescence_thickness_max_nm = 740.0f;
+        filmed.maps.iridescence = filmed.maps.iridescence_thickness = first_texture();
+        filmed.maps.iridescence_thickness.channel = scene::Channel::G;
+        const shared::ThinFilm film{0.8f * 160.0f / 255.0f, 1.5f, 100.0f + 640.0f * 64.0f / 255.0f, base};
+        float most = 0.0f, least = 10.0f;
+        for (const glm::vec3& way : {glm::vec3(0, 1, -1), glm::vec3(0, 0.3f, -1), glm::vec3(0, 1, 0), glm::vec3(0, 1, 0.7f), glm::vec3(-2, 1, -1)}) {
+            const glm::vec3 to_lamp = glm::normalize(way);
+            Light lamp;
+            lamp.kind = LightKind::Point;
+            lamp.position_m = 20.0f * to_lamp;
+            lamp.intensity = 1e7f;
+            frame.extra_lights = {lamp};
+            const auto lobe = [&](const glm::vec3& f0) {
+                return shared::with_all_light(shared::make_lobe({0, 1, 0}, to_eye, glm::vec3(0.0f), f0, 0.25f), 0.5f, shared::lost_along_lobe(0.5f));
+            };
+            shared::Lobe coloured = lobe(shared::filmed_mean_f0(film));
+            coloured.f0 = shared::filmed_f0(film, glm::dot(to_eye, glm::normalize(to_eye + to_lamp)));
+            const glm::vec3 wanted = shared::shade_lobe(coloured, to_lamp) / shared::shade_lobe(lobe(base), to_lamp);
+            const glm::vec3 bare(pixel(shot(plain, textures), 23, 23)), seen(pixel(shot(filmed, textures), 23, 23));
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / bare[c], wanted[c], 0.03f * wanted[c]) << glass << " " << way.x << " " << way.z << " " << c;
+            most = std::max(most, wanted.r / wanted.b);
+            least = std::min(least, wanted.r / wanted.b);
+        }
+        EXPECT_GT(most, 1.2f * least) << glass;
     }
 }
 

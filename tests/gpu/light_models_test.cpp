@@ -327,6 +327,19 @@ TEST_F(LightModels, SpecularAntiAliasingWidensWhatBendsInAPixel)
     EXPECT_NEAR(roughness(), std::pow(alpha2 + 0.0004f, 0.25f), 0.003f) << "no more than its limit";
 }
 
+// N samples show what normals do between them: what is left to each is the variance inside an N-th of the pixel.
+TEST_F(LightModels, SamplesShareTheVarianceOfNormals)
+{
+    renderer->load(scene_of({ball()}, {plain_material(glm::vec3(0.2f), 0.15f)}), {});
+    Frame frame = of_ball({0, 0, 1});
+    frame.settings.aovs = {"roughness"};
+    const float bend = 2.56f / 64.0f;
+    for (const int samples : {1, 4, 16}) {
+        frame.settings.samples = samples;
+        EXPECT_NEAR(aov(renderer->render(frame), "roughness", 32, 32), std::pow(std::pow(0.15f, 4.0f) + bend * bend / static_cast<float>(samples), 0.25f), 0.01f) << samples;
+    }
+}
+
 // --- unlit
 
 // A plate above a floor, under the sun from straight above.

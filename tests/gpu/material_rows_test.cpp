@@ -43,7 +43,7 @@ void make_visible(std::string_view row, Material& m)
     if (row.starts_with("sheen_") && row != "sheen_color_factor") m.sheen_color = glm::vec3(0.8f);
     if (row == "sheen_roughness_texture") m.sheen_roughness = 1.0f;
     if (row == "anisotropy_rotation" || row == "anisotropy_texture") m.anisotropy = 0.9f;
-    if (row == "diffuse_transmission_texture") m.diffuse_transmission = 0.8f;
+    if (row.starts_with("diffuse_transmission_") && row != "diffuse_transmission_factor") m.diffuse_transmission = 0.8f;
     if (row == "transmission_texture") m.transmission = 0.9f;
     if (row == "thickness_texture" || row == "dispersion") {
         m.transmission = 0.9f;

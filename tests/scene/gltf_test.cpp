@@ -355,12 +355,16 @@ TEST(Gltf, SaysWhatItIgnores)
             HasSubstr("metallicFactor: the value is out of range")));
 }
 
-TEST(Gltf, SaysThatWhatComesThroughHasTheBaseColour)
+TEST(Gltf, WhatComesThroughHasAColourOfItsOwn)
 {
-    const Scene scene = load(edited({{"/materials/0/extensions/KHR_materials_diffuse_transmission",
-                                      {{"diffuseTransmissionFactor", 0.5}, {"diffuseTransmissionColorFactor", {1, 0, 0}}}}}));
-    EXPECT_EQ(scene.materials[0].diffuse_transmission, 0.5f);
-    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("diffuseTransmissionColorFactor: is left out")));
+    const auto leaf = [](json told) { return load(edited({{"/materials/0/extensions/KHR_materials_diffuse_transmission", std::move(told)}})); };
+    const Scene red = leaf({{"diffuseTransmissionFactor", 0.5}, {"diffuseTransmissionColorFactor", {1, 0.25, 0}}, {"diffuseTransmissionColorTexture", {{"index", 0}}}});
+    EXPECT_EQ(red.materials[0].diffuse_transmission, 0.5f);
+    EXPECT_EQ(red.materials[0].diffuse_transmission_color, glm::vec3(1.0f, 0.25f, 0.0f));
+    EXPECT_TRUE(red.materials[0].maps.diffuse_transmission_color.present());
+    EXPECT_FALSE(red.materials[0].diffuse_transmission_of_base);
+    EXPECT_THAT(red.warnings, testing::IsEmpty());
+    EXPECT_EQ(leaf({{"diffuseTransmissionFactor", 0.5}}).materials[0].diffuse_transmission_color, glm::vec3(1.0f)) << "as the extension has it";
 }
 
 TEST(Gltf, SaysThatALampTakesLightAway)

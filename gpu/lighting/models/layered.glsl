@@ -13,7 +13,7 @@ vec3 layered_light(LitPoint p, vec3 to_light)
     } else {
         base = shade_lobe(lobe, to_light);
     }
-    return shade_layers_over(base, lobe, to_light, p.albedo, p.roughness, p.layers);
+    return shade_layers_over(base, lobe, to_light, p.roughness, p.layers);
 }
 
 Reflected layered_surround(LitPoint p, Surroundings s)
@@ -31,7 +31,10 @@ Reflected layered_surround(LitPoint p, Surroundings s)
     Reflected r;
     r.radiance = (front * below + p.layers.sheen * fibres) * s.irradiance *
                  bounced_occlusion(p.albedo, s.occlusion) * s.scale;
-    r.radiance += through * p.layers.transmitted * below * s.irradiance_behind * s.occlusion * s.scale;
+    // Of what comes from behind as much is left as from before.
+    const float left = max(1.0 - max(p.specular.r, max(p.specular.g, p.specular.b)), 1.0e-3);
+    const vec3 behind = p.layers.through * (vec3(1.0) - single - multiple) / left;
+    r.radiance += behind * p.layers.transmitted * below * s.irradiance_behind * s.occlusion * s.scale;
     r.mirror = single * (below * s.specular_occlusion * s.scale);
     return r;
 }

@@ -230,7 +230,7 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
     }
     vec3 radiance = model_light(q, l) * irradiance;
     if (p.layers.transmitted > 0.0) {
-        radiance += p.albedo * (p.layers.transmitted * cosine_share(vec3(f.xy, -f.z)));
+        radiance += p.layers.through * (p.layers.transmitted * cosine_share(vec3(f.xy, -f.z)));
     }
     if (ggx && p.lobe.lit > 0.0 && specular > 0.0) {
         vec3 in_second = vec3(0.0);
@@ -264,6 +264,7 @@ vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3
     bright.albedo = vec3(0.0);
     bright.diffuse = vec3(0.0);
     bright.layers.sheen = vec3(0.0);
+    bright.layers.through = vec3(0.0);
     bright.roughness = sqrt(alpha);
     bright.lobe = make_lobe(p.lobe.normal, p.view, vec3(0.0), p.specular, alpha);
     const float highlight = highlight_share(size.z, p.roughness);

@@ -108,6 +108,7 @@ LitPoint mirroring_part(LitPoint p)
     q.diffuse = vec3(0.0);
     q.translucency.strength = 0.0;
     q.lobe.diffuse = vec3(0.0);
+    q.layers.through = vec3(0.0);
     // The light through hair takes its colour from there, models of users' own what they scatter.
     if (USES_hair == 0u || p.model != uint(LIGHTING_MODEL_HAIR)) q.base_color = vec3(0.0);
     return q;
@@ -142,7 +143,7 @@ void main()
     PartsOfLight parts;
     if (PARTS != 0u) parts = no_parts();
     if (TOGETHER || there) {
-        const GBufferTexel g =
+        GBufferTexel g =
             decode_gbuffer(fetch_gbuffer(row_texel(texel, frame.size), WEATHER, EMISSION != 0u, BAKED != 0u), WEATHER, frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
@@ -159,13 +160,18 @@ void main()
         dry.snow_opacity = 0.0;
         ThinFilm thin = ThinFilm(0.0, 1.0, 0.0, g.f0);
         if ((LAYERS & LAYERS_IRIDESCENT) != 0u && g.model >= LIGHTING_MODEL_COUNT) {
-            const vec4 told = texelFetch(layers_table, int(g.model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS + 8);
+            const int row = int(g.model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS;
+            const vec4 told = texelFetch(layers_table, row + 8);
             float thick = g.tangent;  // of a grain and of hair it is the tangent: shares have it there, or it is the same everywhere
             float covered = 1.0;
             if (SHARES != 0u) {
-                const LayerShares share = unpack_shares(texelFetch(layer_shares, texel, 0), has_second_lobe(g.model));
+                const LayerShares share = unpack_shares(texelFetch(layer_shares, texel, 0), kind_of_shares(g.model));
                 covered = share.film;
                 if (!has_second_lobe(g.model)) thick = share.film_thickness;
+            }
+            if ((uint(texelFetch(layers_table, row + 9).w) & ROW_FILM_PLACED) != 0u) {
+                covered = g.metallic;
+                g.metallic = dry.metallic = 0.0;
             }
             thin = ThinFilm(told.x * covered, told.y, mix(told.z, told.w, thick), g.f0);
             // As the eye sees it.
@@ -274,7 +280,7 @@ void main()
         p.exposure = sky_light.exposure;
         p.model = g.model;
         p.gathers = GATHERS_NOTHING_FIRST;
-        p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0, n, 0.0);
+        p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), n, 0.0);
         // Snow and standing water cover it; in codes for light it stays as the eye sees it.
         p.thin_film = thin;
         if (GAMMA != 0u) p.thin_film.share = 0.0;
@@ -311,7 +317,7 @@ void main()
             const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
             LayerShares share = all_shares(n);
             if (SHARES != 0u) {
-                share = unpack_shares(texelFetch(layer_shares, texel, 0), has_second_lobe(g.model));
+                share = unpack_shares(texelFetch(layer_shares, texel, 0), kind_of_shares(g.model));
                 // Under snow and standing water it is what they cover all with.
                 p.layers.other_normal = share.other_normal;
                 if (WEATHER != 0u)
@@ -328,6 +334,15 @@ void main()
                 p.layers.sheen_roughness = second.w * share.sheen_roughness;
             }
             if ((LAYERS & LAYERS_LATER) != 0u) later_layers(p, at, share, g.first_share, g.metallic, bare, open, m.emission_scale, view_m, texel);
+            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) {
+                // The base colour, or one of its own, which is dry; without what is mirrored at the front.
+                const vec4 told = texelFetch(layers_table, at + 9);
+                vec3 color = told.rgb * share.through;
+                if (GAMMA != 0u) color = srgb_codes(color);
+                p.layers.through = (uint(told.w) & ROW_THROUGH_OF_BASE) != 0u
+                                       ? p.diffuse
+                                       : color * ((1.0 - g.metallic) * (1.0 - max(p.specular.r, max(p.specular.g, p.specular.b))));
+            }
             if ((LAYERS & (LAYERS_ANISOTROPY | LAYERS_HAIR)) != 0u) {
                 // Along the surface as it is seen.
                 const vec3 tangent = tangent_at(g.base_normal, g.tangent * kPi);

@@ -74,6 +74,7 @@ LitPoint filmed_toward(LitPoint p, vec3 to_light)
                        max(1.0 - max(before.r, max(before.g, before.b)), 1.0e-3);
     p.diffuse *= left;
     p.lobe.diffuse *= left;
+    p.layers.through *= left;
     return p;
 }
 

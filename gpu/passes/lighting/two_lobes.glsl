@@ -5,11 +5,16 @@
 
 const bool TWO_LOBES = (LAYERS & LAYERS_SECOND_LOBE) != 0u && SHARES != 0u;
 
-// Of the material that the G-buffer names by a row behind the models.
+// SHARES_.. of the material that the G-buffer names by a row behind the models.
+uint kind_of_shares(uint model)
+{
+    if ((LAYERS & (LAYERS_SECOND_LOBE | LAYERS_TRANSMISSION)) == 0u || SHARES == 0u || model < LIGHTING_MODEL_COUNT) return SHARES_SHEEN;
+    return uint(texelFetch(layers_table, int(model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS + 7).w);
+}
+
 bool has_second_lobe(uint model)
 {
-    if (!TWO_LOBES || model < LIGHTING_MODEL_COUNT) return false;
-    return texelFetch(layers_table, int(model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS + 7).w > 0.5;
+    return TWO_LOBES && kind_of_shares(model) == SHARES_LOBES;
 }
 
 // The dry lobe of a pixel, before weather; share 0 where there is none.
@@ -23,7 +28,7 @@ DryLobe dry_second_lobe(uint model, ivec2 texel)
 {
     DryLobe lobe = DryLobe(vec3(0.0, 1.0, 0.0), 1.0, 0.0);
     if (!has_second_lobe(model)) return lobe;
-    const LayerShares s = unpack_shares(texelFetch(layer_shares, texel, 0), true);
+    const LayerShares s = unpack_shares(texelFetch(layer_shares, texel, 0), SHARES_LOBES);
     return DryLobe(s.second_normal, s.second_roughness, s.second_share);
 }
 

@@ -51,6 +51,18 @@ float film_thickness(SurfaceInput at, vec2 shift)
     return layer_number(LAYER_TEXTURE_IRIDESCENCE_THICKNESS, at, shift);
 }
 
+// Of the surface.
+float film_share(SurfaceInput at, vec2 shift)
+{
+    return layer_number(LAYER_TEXTURE_IRIDESCENCE, at, shift);
+}
+
+// Last of all, where glass keeps no metal: as_reflectance() has told it.
+void place_film(inout GBufferTexel texel, SurfaceInput at)
+{
+    if ((BESIDES & BESIDES_FILM_PLACED) != 0u) texel.metallic = film_share(at, vec2(0.0));
+}
+
 // A thin film colours what is mirrored, as the eye here sees it: told as the reflectance that would show it,
 // so that lights and surroundings answer alike.
 void add_thin_film(inout GBufferTexel texel, SurfaceInput at, vec2 shift)
@@ -59,13 +71,18 @@ void add_thin_film(inout GBufferTexel texel, SurfaceInput at, vec2 shift)
                             ? -frame.forward
                             : normalize(frame.camera_m - at.position);
     const float nv = clamp(abs(dot(texel.base_normal, to_eye)), 0.02, 1.0);
-    const float share =
-        material.iridescence_factor * layer_number(LAYER_TEXTURE_IRIDESCENCE, at, shift);
+    const float share = material.iridescence_factor * film_share(at, shift);
     const float thickness_nm = mix(material.iridescence_thickness_minimum,
                                    material.iridescence_thickness_maximum,
                                    film_thickness(at, shift));
     as_reflectance(texel);
     texel.f0 = mix(texel.f0, thin_film_f0(material.iridescence_ior, thickness_nm, texel.f0, nv), share);
+}
+
+// What there is room for, as lighting has it from the row of the material's layers.
+uint kind_of_shares()
+{
+    return has_layer(LAYER_TEXTURE_SECOND_LOBE) ? SHARES_LOBES : has_layer(LAYER_TEXTURE_THROUGH) ? SHARES_THROUGH : SHARES_SHEEN;
 }
 
 LayerShares layer_shares(SurfaceInput at, TangentFrame f, vec3 normal, vec2 shift)
@@ -76,8 +93,9 @@ LayerShares layer_shares(SurfaceInput at, TangentFrame f, vec3 normal, vec2 shif
     s.sheen = layer_color(LAYER_TEXTURE_SHEEN_COLOR, at, shift);
     s.sheen_roughness = layer_number(LAYER_TEXTURE_SHEEN_ROUGHNESS, at, shift);
     s.transmitted = layer_number(LAYER_TEXTURE_DIFFUSE_TRANSMISSION, at, shift);
+    s.through = layer_color(LAYER_TEXTURE_THROUGH, at, shift);
     s.translucency = layer_number(LAYER_TEXTURE_TRANSLUCENCY, at, shift);
-    s.film = layer_number(LAYER_TEXTURE_IRIDESCENCE, at, shift);
+    s.film = film_share(at, shift);
     s.film_thickness = film_thickness(at, shift);
     s.curvature = layer_number(LAYER_TEXTURE_SKIN_CURVATURE, at, shift);
     if (has_layer(LAYER_TEXTURE_ANISOTROPY)) {

@@ -99,6 +99,7 @@ void main()
     if (VERTEX_LIGHT != 0u) add_vertex_light(data.texel, gl_FrontFacing ? in_lit_front : in_lit_back);
 #endif
     data.texel.emission = data.emission;
+    place_film(data.texel, at);
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
 #define ROW(name, location_, format_, when_, meaning_) out_##name = code.name;
     TARGETS(ROW)

@@ -200,6 +200,7 @@ void main()
     const bool shape = SHAPES != 0u && more.z != 0u;
     if (VERTEX_LIGHT != 0u && !shape) add_vertex_light(data.texel, lit_at_vertices(draw, numbers, at, side));
     data.texel.emission = data.emission;
+    place_film(data.texel, s);
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
     const bool ALWAYS = true;
     const bool WEATHER = SURFACE_WEATHER == WEATHER_WHOLE;
@@ -210,5 +211,5 @@ void main()
     GBUFFER_TABLE(ROW)
 #undef ROW
     if (SURFACE_WEATHER == WEATHER_WET) imageStore(out_wet, pixel, wet_code(kept_weather(data.texel), data.texel.material));
-    if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares, has_layer(LAYER_TEXTURE_SECOND_LOBE)));
+    if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares, kind_of_shares()));
 }

@@ -1,7 +1,7 @@
 #version 460
 // Puts a layer behind those before it: its own light, and what it lets through of the rest. What is
-// seen through a body is bent at its surface and blurred by its roughness: a disc around the pixel where
-// the bent ray leaves it, as wide as the lobe is at what lies there. Such a layer is the last: it shows
+// seen through a body is bent at its surface and blurred by its roughness: GGX's lobe around the pixel where
+// the bent ray leaves it, as wide as that is at what lies there. Such a layer is the last: it shows
 // the solid picture, not other layers behind it.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -48,14 +48,18 @@ float solid_m(ivec2 texel)
     return d > 0.0 ? linear_depth(frame, d) : 1.0e5;
 }
 
-// The mean of a disc, without what stands before the layer.
-vec3 solid_around(vec2 pixel, float radius, ivec2 here, float layer_m)
+// The mean over a lobe of GGX, without what stands before the layer. Half of its facets are steeper than alpha, a share u less steep
+// than alpha times the root of u / (1 - u). Each sample of a pixel has places of its own.
+//   half_way   pixels from the middle within which half of it lies;  farthest: beyond that none is looked for
+vec3 solid_around(vec2 pixel, float half_way, float farthest, ivec2 here, float layer_m)
 {
     vec3 sum = vec3(0.0);
     float count = 0.0;
+    const float within = fract(0.5 + 0.61803399 * float(frame.sample_index));
     for (int i = 0; i < kTaps; ++i) {
-        const float r = radius * sqrt((float(i) + 0.5) / float(kTaps));
-        const float turn = kGoldenAngle * float(i);
+        const float u = (float(i) + within) / float(kTaps);
+        const float r = min(half_way * sqrt(u / (1.0 - u)), farthest);
+        const float turn = kGoldenAngle * (float(i) + within - 0.5);
         const vec2 at = pixel + r * vec2(cos(turn), sin(turn));
         const ivec2 texel = clamp(ivec2(floor(at)), ivec2(0), frame.size - 1);
         const float behind = solid_m(texel) >= layer_m * 0.999 ? 1.0 : 0.0;
@@ -87,13 +91,13 @@ vec3 seen_through(vec2 pixel, ivec2 texel, vec3 position, vec3 view, vec3 normal
     const float behind_m =
         max(solid_m(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1)), layer_m);
     // A lobe through a thin pane spreads about as one that is mirrored, less the less it bends. In a body a
-    // facet turns the ray by 1 - 1 / ior of its own tilt, half of which are above alpha: as in a disc whose
-    // radius is the root of 2 times that.
-    const float bends = thickness_m > 0.0 ? 1.41421356 * (1.0 - 1.0 / max(ior, 1.0)) : clamp(2.0 * ior - 2.0, 0.0, 1.0);
+    // facet turns the ray by 1 - 1 / ior of its own tilt.
+    const float bends = thickness_m > 0.0 ? 1.0 - 1.0 / max(ior, 1.0) : 0.70710678 * clamp(2.0 * ior - 2.0, 0.0, 1.0);
     const float wide_m = roughness * roughness * bends * max(behind_m - layer_m, thickness_m);
     const float pixel_m = pixel_width_m(frame, behind_m);
-    const float radius = clamp(wide_m / max(pixel_m, 1.0e-6), 0.0, 0.12 * float(frame.size.y));
-    return solid_around(at, radius, texel, layer_m);
+    const float most = float(frame.size.y);
+    const float half_way = clamp(wide_m / max(pixel_m, 1.0e-6), 0.0, 0.085 * most);
+    return solid_around(at, half_way, 0.34 * most, texel, layer_m);
 }
 
 // The solid picture through a drop on a pane, which is a lens as strong as it is round: a ray is bent at the
