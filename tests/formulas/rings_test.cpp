@@ -2,6 +2,7 @@
 // computes the same, Surface.RingsTooSmallToSeeAreRoughness that it draws so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -116,7 +117,9 @@ TEST(Rings, AreOfDropsOfManySizes)
         EXPECT_LT(spread, 0.45f) << rate;
         // The least of them, by its definition: as many larger ones meet the water as there are rings.
         const float least_mm = 1.0f / (spread * rain_slope_per_mm(rate));
-        if (least_mm > 0.51f) EXPECT_NEAR(rain_hits_per_m2_s(rate, least_mm) / (83.0f * std::min(rate / 12.5f, 4.0f)), 1.0f, 0.01f) << rate;
+        if (least_mm > 0.51f) {
+            EXPECT_NEAR(rain_hits_per_m2_s(rate, least_mm) / (83.0f * std::min(rate / 12.5f, 4.0f)), 1.0f, 0.01f) << rate;
+        }
         EXPECT_GT(least_mm, before) << "the harder it rains, the larger they are";
         before = static_cast<double>(least_mm);
     }
