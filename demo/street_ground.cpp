@@ -39,6 +39,14 @@ constexpr Hollow kHollows[] = {
 
 constexpr vec2 kCover{-1.05f, 1.75f};  // the iron cover in the road
 constexpr float kCoverRadius = 0.33f;
+constexpr float kCoverFrame = kCoverRadius + 0.045f;
+constexpr float kMortar_m = 0.004f;  // below the stones, where joints around it are filled
+
+// The cover is level, and the road is not: it comes up to it on all sides.
+float cover_level(const Kit& kit)
+{
+    return road_at(kit, kCover.x, kCover.y).height_m - 0.004f;
+}
 
 float cobble_relief(const Kit& kit, float x, float z, float step_m)
 {
@@ -64,9 +72,15 @@ float road_surface(const Kit& kit, float x, float z, float step_m)
 {
     float y = road_at(kit, x, z).height_m;
     const float from_cover = glm::length(vec2(x, z) - kCover);
-    const float open = smooth_step(kCoverRadius + 0.01f, kCoverRadius + 0.05f, from_cover);
-    y += open * cobble_relief(kit, x, z, step_m) - (1.0f - open) * 0.035f;
-    return y;
+    if (from_cover > kCoverFrame + 0.3f) return y + cobble_relief(kit, x, z, step_m);
+    // Down it goes below the frame alone, a step of the grid before its rim: else there is a ditch around it.
+    const float level = cover_level(kit);
+    y = level + (y - level) * smooth_step(kCoverFrame, kCoverFrame + 0.25f, from_cover);
+    const float relief = cobble_relief(kit, x, z, step_m);
+    const float joints = smooth_step(kCoverFrame + 0.01f, kCoverFrame + 0.06f, from_cover);
+    const float filled = std::max(relief, -kMortar_m);
+    const float open = smooth_step(kCoverFrame - 0.08f, kCoverFrame - 0.035f, from_cover);
+    return y + open * (filled + (relief - filled) * joints) - (1.0f - open) * 0.035f;
 }
 
 // Slow stains: darker where wheels and water run, paler where feet polish.
@@ -236,7 +250,7 @@ void add_pavement(Kit& kit, float x0, float x1, float z_near, float z_far)
 void add_cover(Kit& kit)
 {
     MeshBuilder& iron = kit[Slot::Iron];
-    const float y = road_at(kit, kCover.x, kCover.y).height_m - 0.001f;
+    const float y = cover_level(kit);
     const vec3 foot(kCover.x, y, kCover.y);
     iron.color = vec4(1.0f);
     iron.lathe(foot,

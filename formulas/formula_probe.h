@@ -63,6 +63,7 @@
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/drop_births.h"
+#include "formulas/weather/ring_sizes.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/snow_body.h"
 #include "formulas/weather/snow_in_turf.h"
@@ -75,7 +76,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 86;
+SHARED_CONST int kProbeKinds = 87;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "gpu/build_frame.h"
-#include "gpu/build_shadows.h"
+#include "formulas/weather/drop_births.h"
 #include "formulas/weather/falls_here.h"
+#include "formulas/weather/ring_sizes.h"
+#include "gpu/build_shadows.h"
 #include "gpu/frame/falls.h"
 #include "gpu/frame/frame_words_io.h"
 #include "gpu/frame/picture_tile.h"
@@ -48,6 +50,7 @@ void see_models(LightingVariant& variant, const GpuScene& scene, const shared::F
     for (const Draw& draw : scene.draws()) {
         const GpuMaterial& material = scene.materials()[draw.material];
         const std::uint32_t model = material.lighting_model;
+        if (draw.overlay && draw.index_count == 0) continue;
         if (models[model] && (material.layers & ~variant.layers) == 0) continue;
         const float pixel_m =
             c.pixel_angle * std::max(1.0f, glm::length(draw.centre_m - c.camera_m));
@@ -61,6 +64,18 @@ void see_models(LightingVariant& variant, const GpuScene& scene, const shared::F
         variant.gathers |= models[model] && scene.lighting_models().gathers(model);
     // Without layers the layered model is the standard one: one text runs instead of both.
     if (models[LIGHTING_MODEL_LAYERED]) models[LIGHTING_MODEL_STANDARD] = false;
+}
+
+// Of the drops that draw rings; all are alike as Lux 2.02 has them.
+float drop_spread(const Frame& frame)
+{
+    if (!frame.settings.film_lobe) return 0.0f;
+    float rings = 0.0f;
+    for (int i = 0; i < shared::kRippleLayers; ++i) {
+        rings += shared::ripple_layer(i, frame.weather.rain, 0.0f, frame.look.ripple_speed).weight *
+                 shared::ring_births_per_m2_s(i, frame.look.ripple_tiling, frame.look.ripple_speed);
+    }
+    return shared::ring_drop_spread(frame.weather.rain_kg_m2_s * 3600.0f, rings);
 }
 
 // Each is a look-up at every pixel: only those of what may lie there.
@@ -363,7 +378,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     }
     if (weathered) {
         // Nobody asks for rings without rain.
-        if (frame.weather.rain > 0.0f) add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed);
+        if (frame.weather.rain > 0.0f)
+            add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed, drop_spread(frame));
         add_flow(graph, *r.surface_maps, time_s);
     }
     const FallingPlan plan = plan_of(frame, sun, r);

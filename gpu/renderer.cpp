@@ -10,6 +10,7 @@
 #include "gpu/build_frame.h"
 #include "gpu/check_frame.h"
 #include "gpu/frame/metering.h"
+#include "gpu/icicles/icicle_body.h"
 #include "gpu/snow/frame_tracks.h"
 #include "gpu/snow/snow_body.h"
 #include "gpu/surface_path.h"
@@ -188,6 +189,24 @@ struct Renderer::Impl {
         }
     }
 
+    // Snow and icicles as they are in the frame.
+    void lay_over(const Frame& frame)
+    {
+        const bool white = snow && snow->lay(frame, tracks);
+        const bool ice = icicles && icicles->lay(frame);
+        if (!white && !ice) return;
+        if (icicles) {
+            const Overlay none;
+            const JoinedOverlay both(snow ? snow->overlay() : none, snow ? snow->laid() : LaidOverlay{}, icicles->overlay(), icicles->laid());
+            scene->lay(device, both.laid());
+            tips.clear();
+            if (drips && !icicles->laid().vertices.empty()) tips = icicles->tips(*drips);
+        } else {
+            scene->lay(device, snow->laid());
+        }
+        depth_maps.shadow_valid.fill(false);
+    }
+
     // True when surfaces of users' own have moved something.
     bool move_own(const Frame& frame, double time_s, bool posed)
     {
@@ -313,6 +332,8 @@ struct Renderer::Impl {
     std::unique_ptr<GpuScene> scene;
     std::unique_ptr<OwnMoves> own_moves;  // null: nothing is moved by them
     std::unique_ptr<SnowBody> snow;
+    std::unique_ptr<IcicleBody> icicles;
+    std::vector<scene::DripPoint> tips;  // where icicles drip, in place of `drips`
     FrameTracks tracks;
     std::uint32_t falls_before = 0;
     bool own_lighting = false;
@@ -328,7 +349,7 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
-                    std::shared_ptr<const scene::SnowCaps> snow)
+                    std::shared_ptr<const scene::SnowCaps> snow, std::shared_ptr<const scene::Icicles> icicles)
 {
     for (TargetSet* set : {&impl_->pictures, &impl_->metering}) set->resolve = {};
     impl_->scene = nullptr;
@@ -339,9 +360,13 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
     impl_->lamp_shadows.forget();
     impl_->light_tables.load(scene.light_profiles);
     impl_->snow = snow && !snow->empty() ? std::make_unique<SnowBody>(std::move(snow)) : nullptr;
+    impl_->icicles = icicles && !icicles->empty() ? std::make_unique<IcicleBody>(std::move(icicles)) : nullptr;
+    impl_->tips.clear();
     impl_->own_moves = nullptr;
+    const Overlay none;
+    const Overlay& white = impl_->snow ? impl_->snow->overlay() : none;
     impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures,
-                                              impl_->snow ? impl_->snow->overlay() : Overlay{});
+                                              impl_->icicles ? joined(white, impl_->icicles->overlay()) : white);
     auto own_lighting = impl_->scene->lighting_models().compile_lighting();
     impl_->own_lighting = !own_lighting.empty();
     if (impl_->own_lighting)
@@ -428,10 +453,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, Targ
         lamp_shadows.forget();
     }
     if (tracks.tread(frame.settings.time_s)) surface_maps.set_tracks(device, *tracks.map());
-    if (snow && snow->lay(frame, tracks)) {
-        scene->lay(device, snow->laid());
-        depth_maps.shadow_valid.fill(false);
-    }
+    lay_over(frame);
     const Light* scene_sun = nullptr;
     if (!frame.sky.analytic_sun) {
         for (const Light& light : scene->lights()) {
@@ -463,7 +485,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, Targ
     resources.triangles = &triangles;
     resources.falling = &falling;
     resources.splashes = &splashes;
-    if (drips) resources.drips = *drips;
+    if (drips) resources.drips = tips.empty() ? std::span<const scene::DripPoint>(*drips) : tips;
     resources.patches = &patches;
     resources.probes = &probes;
     resources.place = &place;

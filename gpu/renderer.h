@@ -22,6 +22,7 @@
 namespace petrichor::scene {
 struct SnowCaps;
 struct DripPoint;
+struct Icicles;
 }
 
 namespace petrichor::gpu {
@@ -61,9 +62,10 @@ public:
     Renderer& operator=(Renderer&&) noexcept;
 
     /// Uploads the scene. `textures[i]` belongs to scene.textures[i] (empty mips: white).
-    /// Replaces what was loaded before. With `snow` what lies deep has a body in frames that want it.
+    /// Replaces what was loaded before. With `snow` what lies deep has a body in frames that want it,
+    /// with `icicles` what hangs from edges.
     void load(const Scene& scene, const std::vector<Texture>& textures,
-              std::shared_ptr<const scene::SnowCaps> snow = nullptr);
+              std::shared_ptr<const scene::SnowCaps> snow = nullptr, std::shared_ptr<const scene::Icicles> icicles = nullptr);
 
     /// Lights the scene from an HDR environment; an empty map returns to the analytic sky.
     void set_environment(const EnvironmentMap& environment);

@@ -257,6 +257,13 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
                 hasher.add_numbers(std::span<const float>(&eye[0], 3));
         });
     }
+    if (frame.settings.icicles && frame.icicles.any()) {
+        parts["icicles"] = part([&](Hasher& hasher) {
+            hasher.add_numbers(std::span<const float>(frame.icicles.length_m));
+            for (const glm::vec3& eye : sequence.eyes_m)
+                hasher.add_numbers(std::span<const float>(&eye[0], 3));
+        });
+    }
     if (const std::string tracks = tracks_at(sequence, what.job.variant, frame.settings.time_s); !tracks.empty())
         parts["tracks"] = tracks;
     static_assert(std::is_trivially_copyable_v<shared::WeatherLook> &&

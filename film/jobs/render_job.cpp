@@ -35,6 +35,7 @@
 #include "film/scenes/weather_textures.h"
 #include "film/tiles/tiled_picture.h"
 #include "gpu/passes/falling/drips.h"
+#include "scene/icicles/icicles.h"
 #include "scene/merge.h"
 
 namespace petrichor::film {
@@ -203,6 +204,21 @@ bool may_drip(const Sequence& sequence, const RenderRequest& request)
         }
     }
     return false;
+}
+
+// Null where no frame of the film has any. drips: those of the scene, if they have been looked for.
+std::shared_ptr<const scene::Icicles> prepare_icicles(const Sequence& sequence, std::shared_ptr<const std::vector<scene::DripPoint>> drips,
+                                                      std::vector<std::string>& notes)
+{
+    scene::Icicles named;
+    if (!scene::find_icicle_material(sequence.scene, named)) return nullptr;
+    if (!drips) drips = prepare_drips(sequence.scene, user_cache(), notes);
+    auto icicles = std::make_shared<scene::Icicles>(scene::hang_icicles(*drips, sequence.eyes_m));
+    icicles->material = named.material;
+    icicles->instance = named.instance;
+    notes.push_back("icicles may hang at " + std::to_string(icicles->icicles.size()) + " places, in " +
+                    std::to_string(icicles->triangles) + " triangles at most");
+    return icicles;
 }
 
 // A renderer at work, and the picture that it is at.
@@ -430,6 +446,7 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
     }
     std::shared_ptr<const std::vector<scene::DripPoint>> drips;
     if (may_drip(sequence, request)) drips = prepare_drips(sequence.scene, user_cache(), report.notes);
+    const std::shared_ptr<const scene::Icicles> icicles = prepare_icicles(sequence, drips, report.notes);
     const std::shared_ptr<const scene::SnowCaps> snow = snow_made.get();
     report.notes.insert(report.notes.end(), snow_notes.begin(), snow_notes.end());
     TextureOptions options;
@@ -448,7 +465,7 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
     report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
     const auto tracks = track_source(sequence, sequence.variants.front().name);
     for (gpu::Renderer& renderer : renderers) {
-        renderer.load(sequence.scene, textures, snow);
+        renderer.load(sequence.scene, textures, snow, icicles);
         renderer.set_patches(patches);
         renderer.set_drips(drips);
         if (tracks) renderer.set_tracks(tracks);

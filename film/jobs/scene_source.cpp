@@ -27,6 +27,7 @@
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
 #include "film/weather/film_by_name.h"
+#include "scene/icicles/icicles.h"
 #include "scene/patches/lanterns.h"
 
 namespace petrichor::film {
@@ -131,6 +132,10 @@ void load_sequence_scene(Sequence& sequence, int threads)
     const auto unnamed = apply_node_overrides(scenario.nodes, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), unnamed.begin(), unnamed.end());
     const std::string decals = add_decals(scenario.decals, scenario.materials, sequence.scene);
+    const bool icicles = std::any_of(sequence.variants.begin(), sequence.variants.end(), [&](const SequenceVariant& v) {
+        return v.icicles.any(scenario.output.start_s, scenario.output.start_s + sequence.duration_s);
+    });
+    if (icicles) scene::add_icicle_material(sequence.scene);
     const AppliedOverrides applied =
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
@@ -173,6 +178,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     }
     if (!decals.empty()) content.add(decals);
     if (!shapes.empty()) content.add(shapes);
+    if (icicles) content.add("icicles");
     content.add(applied.textures);
     content.add(ground);
     content.add(scenario.scene.variant);

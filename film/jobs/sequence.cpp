@@ -103,6 +103,21 @@ bool something_falls(const shared::WeatherMoment& w)
     return w.rain_kg_m2_s > 0.0f || w.snowfall_kg_m2_s > 0.0f;
 }
 
+// From 20 days before the film on, as far as a file goes back; keys from their first.
+IcicleHistory icicles_of(const SequenceVariant& variant, double start_s, double duration_s)
+{
+    const WeatherSource& weather = variant.weather;
+    if (!weather.table && !weather.script) return {};
+    constexpr double kBefore_us = 20.0 * 86400e6;
+    IcicleHistory::Clock clock{std::min(-weather.script_offset_s, start_s), start_s + duration_s,
+                               3600.0 * variant.conditions.weather.hours_per_second};
+    if (weather.table) {
+        const auto there_us = static_cast<double>(weather.utc_us(start_s) - weather.table->time_us.front());
+        clock.begin_s = start_s - std::clamp(there_us, 0.0, kBefore_us) * 1e-6 / clock.weather_s_per_s;
+    }
+    return {[at = weather.at](double clock_s) { return at(clock_s).values; }, clock};
+}
+
 }  // namespace
 
 Sequence make_sequence(Scenario scenario)
@@ -134,6 +149,7 @@ Sequence make_sequence(Scenario scenario)
             const shared::WeatherMoment& w = at(output.start_s + duration_s * film_time_s / film_s).values;
             return w.snow_amount > 0.0f ? static_cast<double>(w.snow_depth_m) : 0.0;
         };
+        if (s.render.icicles) variant.icicles = icicles_of(variant, output.start_s, sequence.duration_s);
         variant.snow = SnowHistory(snow_m, film_s, std::clamp(4 * output.frames, 64, 4096));
     }
     if (!s.render.color.config.empty())
@@ -213,6 +229,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     if (here.fog.visibility_m.given())
         out.weather.visibility_m = narrow(value_at(here.fog.visibility_m, time_s));
     result.moment.values = out.weather;
+    out.icicles = variant.icicles.at(time_s);
     out.sky.turbidity = narrow(value_at(here.sky.turbidity, time_s, 2.5));
     out.sky.sun_illuminance = narrow(here.sun.illuminance_lux.value_or(100000.0));
     if (here.sun.from_scene && !here.sun.illuminance_lux)

@@ -13,6 +13,7 @@
 #include "film/jobs/weather_source.h"
 #include "film/scenario/scenario.h"
 #include "film/scenes/node_tracks.h"
+#include "film/weather/icicle_history.h"
 #include "film/weather/snow_history.h"
 #include "gpu/renderer.h"
 #include "scene/scene.h"
@@ -46,6 +47,7 @@ struct SequenceVariant {
     std::string environment = {};  ///< fingerprint of its sky's picture; "": none
     AirTravel air = {};            ///< of the weather's wind, about true north
     SnowHistory snow = {};         ///< of the weather's snow, over the seconds of the film
+    IcicleHistory icicles = {};    ///< over the clock of the weather
 };
 
 /// A scene and a scenario that together say what every frame shows.

@@ -16,7 +16,7 @@ namespace petrichor::film {
 namespace {
 
 constexpr const char* kKind = "drips";
-static_assert(sizeof(scene::DripPoint) == 6 * sizeof(float), "no padding: bytes are kept");
+static_assert(sizeof(scene::DripPoint) == 8 * sizeof(float), "no padding: bytes are kept");
 static_assert(std::is_trivially_copyable_v<scene::DripPoint>);
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "gpu/frame/place_io.h"
 #include "gpu/frame/switches.h"
 #include "gpu/upload/scene_names.h"
+#include "scene/icicles/icicle.h"
 #include "scene/material_table.h"
 
 namespace petrichor::gpu {
@@ -216,6 +217,7 @@ struct Frame {
     shared::WeatherLook look;         ///< how weather is drawn
     /// Where pixels find their weather; null: `weather` is everywhere, under the shelter map.
     std::shared_ptr<const PlaceWeather> place;
+    scene::IcicleLengths icicles = {};  ///< at edges that drip
     std::vector<Light> extra_lights;  ///< added to the scene's own (a lamp lit at dusk)
     float scene_light_scale = 1.0f;   ///< multiplies point and spot lights of the scene
     float emissive_scale = 1.0f;      ///< multiplies emission of materials

@@ -17,6 +17,7 @@
     ROW(soft_shadows, false, "of sun and lamps by their size: each sample looks from another point of them") \
     ROW(film_lobe, true, "a film of water has its own highlight and normal; false: as Lux 2.02")  \
     ROW(snow_body, true, "deep snow has a shape: it rounds edges, stands over them, throws shadows") \
+    ROW(icicles, true, "where water that drips from edges has frozen") \
     ROW(lamp_glow, true, "fog, rain and snow glow around lamps")                                 \
     ROW(draw_sky, true, "false: black where the scene ends")                                     \
     ROW(dither, true, "of the PNG: hides steps in soft gradients")

@@ -305,7 +305,7 @@ bool SnowBody::lies_below(const vec3& eye_m) const
 LaidOverlay SnowBody::laid() const
 {
     if (!lies_) return {};
-    return {overlay_.vertices, overlay_.indices, counts_, hidden_, covered_};
+    return {overlay_.vertices, overlay_.indices, counts_, hidden_, covered_, true};
 }
 
 }  // namespace petrichor::gpu

@@ -219,6 +219,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
         draw.material = part.material;
         draw.instance_id = part.instance_id;
         draw.overlay = true;
+        draw.ice = part.ice;
         overlay_parts[draw.first_index] = static_cast<std::uint32_t>(&part - overlay.parts.data());
         const auto own = std::span(overlay.indices).subspan(part.first_index, part.index_count);
         if (!own.empty()) {
@@ -348,6 +349,7 @@ void GpuScene::lay(const Device& device, const LaidOverlay& overlay)
         if (found != below.end()) covered_[i] = found->second->triangles;
     }
     overlaid_ = !overlay.vertices.empty();
+    snow_lies_ = overlaid_ && overlay.snow;
     std::size_t next = 0;
     for (std::size_t i = 0; i < draws_.size(); ++i) {
         Draw& draw = draws_[i];

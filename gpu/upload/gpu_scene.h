@@ -47,6 +47,7 @@ struct Draw {
     std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
     std::int32_t waving = -1;  ///< likewise of how wind bends it
     bool overlay = false;
+    bool ice = false;          ///< of an overlay: no snow
     std::int32_t shape = -1;  ///< number in the scene's shapes; negative: triangles
 };
 
@@ -67,6 +68,7 @@ struct Overlay {
         std::uint32_t first_index = 0;
         std::uint32_t index_count = 0;
         Bounds box;  ///< that it never leaves
+        bool ice = false;  ///< it is no snow
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
@@ -88,6 +90,7 @@ struct LaidOverlay {
     std::span<const std::uint32_t> counts;   ///< of each part: how many of its indices are drawn
     std::span<const std::uint8_t> hidden;    ///< of each triangle, as in Covered: what need not be drawn from there; those of a part likewise
     std::span<const Covered> covered;
+    bool snow = true;  ///< some of it is
 };
 
 /// The bounding sphere of a draw, from the box of its vertices.
@@ -142,7 +145,7 @@ public:
     /// Shapes the overlay of the frames that follow; empty: there is none in them. The device must not
     /// be drawing.
     void lay(const Device& device, const LaidOverlay& overlay);
-    bool overlaid() const { return overlaid_; }
+    bool snow_lies() const { return snow_lies_; }
     /// Length over width of what its textures' samplers read at most (Device::texture_anisotropy).
     std::uint32_t texture_stretch() const { return texture_stretch_; }
     std::uint64_t lays() const { return lays_; }  ///< grows with each
@@ -256,6 +259,7 @@ private:
     std::uint64_t lays_ = 0;
     std::vector<std::uint32_t> overlay_parts_;  // numbers of the overlay's draws, in their order
     bool overlaid_ = false;
+    bool snow_lies_ = false;
     std::vector<std::vector<std::uint8_t>> covered_;  // of each draw
     SteepTriangles steep_;
     std::vector<Light> rest_lights_;

@@ -183,6 +183,7 @@ bool leaves_at(const Tracer& tracer, const Edge& edge, const vec3& middle, DripP
     if (!hit.hit() || hit.distance_m < kOpenBelow_m) return false;
     point.from_m = at;
     point.ground_m = at.y - hit.distance_m;
+    point.out = {edge.out.x, edge.out.z};
     return true;
 }
 

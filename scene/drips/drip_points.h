@@ -17,6 +17,7 @@ struct DripPoint {
     float ground_m = 0.0f;          ///< height of what is met straight below
     float drained_m2 = 0.0f;        ///< in plan: what is open to the sky and runs off here
     std::uint32_t number = 0;       ///< follows from its place: what is hashed
+    glm::vec2 out{0.0f};            ///< away from the surface above, unit, world x and z
 };
 
 struct DripOptions {

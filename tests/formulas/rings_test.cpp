@@ -2,11 +2,14 @@
 // computes the same, Surface.RingsTooSmallToSeeAreRoughness that it draws so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "formulas/codec/octahedral.h"
 #include "formulas/codec/rough_normal.h"
+#include "formulas/weather/drop_births.h"
+#include "formulas/weather/ring_sizes.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/weather_maps.h"
 
@@ -24,7 +27,7 @@ float as_kept(float square)
 }
 
 // The map of a moment, as ripple.comp.glsl draws it, in numbers of eight bits.
-Level rings_of(float rain, int size)
+Level rings_of(float rain, int size, float spread = 0.2f, float time_s = 3.7f)
 {
     Level level;
     for (int y = 0; y < size; ++y) {
@@ -32,8 +35,10 @@ Level rings_of(float rain, int size)
             const glm::vec2 uv = (glm::vec2(x, y) + 0.5f) / static_cast<float>(size);
             glm::vec2 slope(0.0f);
             for (int i = 0; i < kRippleLayers; ++i) {
-                const RippleLayer layer = ripple_layer(i, rain, 3.7f, 1.0f);
-                slope += layer.weight * ripple_slope(rain_drops(glm::fract(uv + layer.offset), 0u), layer.clock, layer.weight);
+                const RippleLayer layer = ripple_layer(i, rain, time_s, 1.0f);
+                glm::vec4 drop = rain_drops(glm::fract(uv + layer.offset), 0u);
+                drop.w = eight_bits(drop.w);
+                slope += layer.weight * sized_ripple_slope(drop, layer, i, spread);
             }
             level.push_back({kept(glm::vec2(glm::normalize(glm::vec3(slope, 1.0f)))), 0.0f});
         }
@@ -100,6 +105,73 @@ TEST(Rings, AreSteeperTheHarderItRains)
     }
     RecordProperty("all_lost", std::to_string(before));
     EXPECT_GT(before, 0.006);
+}
+
+// Drops differ as the largest of a spectrum do; small ones draw weak rings that end early.
+TEST(Rings, AreOfDropsOfManySizes)
+{
+    double before = 0.0;
+    for (const float rate : {1.0f, 5.0f, 20.0f, 50.0f, 150.0f}) {
+        const float spread = ring_drop_spread(rate, 83.0f * std::min(rate / 12.5f, 4.0f));
+        EXPECT_GT(spread, 0.1f) << rate;
+        EXPECT_LT(spread, 0.45f) << rate;
+        // The least of them, by its definition: as many larger ones meet the water as there are rings.
+        const float least_mm = 1.0f / (spread * rain_slope_per_mm(rate));
+        if (least_mm > 0.51f) {
+            EXPECT_NEAR(rain_hits_per_m2_s(rate, least_mm) / (83.0f * std::min(rate / 12.5f, 4.0f)), 1.0f, 0.01f) << rate;
+        }
+        EXPECT_GT(least_mm, before) << "the harder it rains, the larger they are";
+        before = static_cast<double>(least_mm);
+    }
+    EXPECT_EQ(ring_drop_spread(0.0f, 80.0f), 0.0f);
+    EXPECT_EQ(ring_drop_spread(10.0f, 0.0f), 0.0f);
+    float strength = 0.0f, reach = 0.0f;
+    for (int i = 0; i < 100; ++i) {
+        const RingSize size = ring_size(0.01f * static_cast<float>(i), 0.2f);
+        EXPECT_GT(size.strength, strength);
+        EXPECT_GE(size.reach, reach);
+        EXPECT_LE(size.reach, 1.0f);
+        strength = size.strength;
+        reach = size.reach;
+    }
+    EXPECT_GT(strength, 2.5f * ring_size(0.0f, 0.2f).strength);
+    EXPECT_LT(ring_size(0.0f, 0.2f).reach, 0.85f);
+    const RingSize alike = ring_size(0.7f, 0.0f);
+    EXPECT_EQ(alike.strength, 1.0f);
+    EXPECT_EQ(alike.reach, 1.0f);
+}
+
+// Without a spread they are those of one size; with one they are as steep all together.
+TEST(Rings, OfManySizesAreAsSteepAllTogether)
+{
+    for (int i = 0; i < 200; ++i) {
+        const float u = static_cast<float>(i) / 200.0f;
+        const RippleLayer layer = ripple_layer(i % 4, 1.0f, 7.0f * u, 1.0f);
+        const glm::vec4 drop(u, 0.5f + 0.5f * std::cos(9.0f * u), 0.5f + 0.5f * std::sin(9.0f * u), 0.3f);
+        EXPECT_LT(glm::length(sized_ripple_slope(drop, layer, i % 4, 0.0f) - ripple_slope(drop, layer.clock, layer.weight)), 1e-6f);
+    }
+    double alike = 0.0, sized = 0.0;
+    for (const float time_s : {0.3f, 1.7f, 3.1f, 8.4f, 12.0f, 20.9f, 31.3f, 44.0f}) {
+        alike += means_of(rings_of(1.0f, 128, 0.0f, time_s)).seen;
+        sized += means_of(rings_of(1.0f, 128, 0.2f, time_s)).seen;
+    }
+    EXPECT_NEAR(sized / alike, 1.0, 0.1);
+}
+
+// A place has a strong ring now and a weak one then.
+TEST(Rings, OfAPlaceDifferFromDropToDrop)
+{
+    float least = 10.0f, most = 0.0f;
+    for (int turn = 0; turn < 60; ++turn) {
+        RippleLayer layer = ripple_layer(0, 1.0f, 0.0f, 1.0f);
+        layer.clock = 0.2f;
+        layer.begun = static_cast<float>(turn);
+        const float slope = glm::length(sized_ripple_slope({0.87f, 1.0f, 0.5f, 0.0f}, layer, 0, 0.2f));
+        least = std::min(least, slope);
+        most = std::max(most, slope);
+    }
+    EXPECT_GT(least, 0.0f);
+    EXPECT_GT(most, 2.2f * least);
 }
 
 TEST(Rings, OfTexelsThatAreAlikeNothingMoreIsLost)

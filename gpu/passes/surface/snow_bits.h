@@ -14,10 +14,10 @@ namespace petrichor::gpu {
 /// by what lies.
 class SnowBits {
 public:
-    SnowBits(const GpuScene& scene, const SurfaceMaps& maps) : tracks_(maps.track_area.width > 0), lies_(scene.overlaid())
+    SnowBits(const GpuScene& scene, const SurfaceMaps& maps) : tracks_(maps.track_area.width > 0), lies_(scene.snow_lies())
     {
         const std::vector<Draw>& draws = scene.draws();
-        may_lie_ = std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.overlay; });
+        may_lie_ = std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.overlay && !draw.ice; });
     }
 
     std::uint32_t of(const GpuMaterial& material) const

@@ -1,9 +1,9 @@
 #version 460
-// The rings of this moment: four layers of drops, summed as slopes (formulas/weather/ripple.h). Red and green: x and y of the normal; blue and alpha, of
+// The rings of this moment: four layers of drops of many sizes, summed as slopes (formulas/weather/ripple.h, ring_sizes.h). Red and green: x and y of the normal; blue and alpha, of
 // smaller levels: the mean of x^2 + y^2 (ripple_mip.comp.glsl).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "formulas/weather/ripple.h"
+#include "formulas/weather/ring_sizes.h"
 #include "gpu/passes/surface_maps/surface_maps_io.h"
 
 layout(local_size_x = SURFACE_MAPS_TILE, local_size_y = SURFACE_MAPS_TILE) in;
@@ -29,7 +29,7 @@ void main()
         const ivec2 nearest = ivec2(fract(at) * vec2(source_size));
         const float drop_time = texelFetch(source, nearest, 0).a;
         slope += layer.weight *
-                 ripple_slope(vec4(smooth_part.xyz, drop_time), layer.clock, layer.weight);
+                 sized_ripple_slope(vec4(smooth_part.xyz, drop_time), layer, i, params.spread);
     }
     const vec3 normal = normalize(vec3(slope, 1.0));
     imageStore(target, texel, vec4(0.5 * normal.xy + 0.5, 0.0, 0.0));

@@ -185,7 +185,7 @@ void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps)
     add_quads(graph, "flow_mips", *maps.flow, *maps.flow_quads, maps.trilinear);
 }
 
-void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed)
+void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed, float drop_spread)
 {
     graph.add(
         ComputePass{.name = "ripple",
@@ -193,7 +193,7 @@ void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, 
                     .constants = {},
                     .bindings = {{RIPPLE_SOURCE, sampled(*maps.ripple_source, maps.trilinear)},
                                  {RIPPLE_TARGET, storage(*maps.ripple, 0)}},
-                    .push = PushBlock(shared::RippleParams{rain, time_s, speed}),
+                    .push = PushBlock(shared::RippleParams{rain, time_s, speed, drop_spread}),
                     .groups = groups_over(maps.ripple_size, maps.ripple_size, SURFACE_MAPS_TILE)});
     add_mips(graph, "ripple_mips", *maps.ripple, "ripple_mip.comp");
 }

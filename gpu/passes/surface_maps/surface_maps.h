@@ -37,11 +37,11 @@ private:
 //   writes   ripple_source, snow, flow and its quads
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps);
 
-// Rings of rain drops at `time_s`; speed 1 is as photographed.
+// Rings of rain drops at `time_s`; speed 1 is as photographed. drop_spread: how much those drops differ (ring_drop_spread).
 //
 //   reads    ripple_source
 //   writes   ripple, with mips
-void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed);
+void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed, float drop_spread);
 
 // Waves of flowing and wind-blown water at `time_s`, unless a map of them is given.
 //

@@ -24,6 +24,7 @@ struct RippleParams {
     float rain;
     float time_s;
     float speed;
+    float spread;  // ring_drop_spread
 };
 
 struct MapQuadsParams {
