@@ -132,6 +132,8 @@ void load_sequence_scene(Sequence& sequence, int threads)
     const auto unnamed = apply_node_overrides(scenario.nodes, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), unnamed.begin(), unnamed.end());
     const std::string decals = add_decals(scenario.decals, scenario.materials, sequence.scene);
+    if (!carries_icicles(sequence.framing.bounds.high.y - sequence.framing.bounds.low.y))
+        for (SequenceVariant& variant : sequence.variants) variant.icicles = IcicleHistory();
     const bool icicles = std::any_of(sequence.variants.begin(), sequence.variants.end(), [&](const SequenceVariant& v) {
         return v.icicles.any(scenario.output.start_s, scenario.output.start_s + sequence.duration_s);
     });

@@ -163,6 +163,11 @@ struct IcicleHistory::Grid {
     }
 };
 
+bool carries_icicles(float height_m)
+{
+    return height_m >= 1.5f;
+}
+
 IcicleHistory::IcicleHistory(std::function<shared::WeatherMoment(double clock_s)> weather, const Clock& clock)
     : grid_(std::make_shared<Grid>())
 {

@@ -20,6 +20,9 @@ double icicle_cooling_w_m2(const shared::WeatherMoment& weather, double radius_m
 ///   water_kg   that comes to it meanwhile, >= 0
 double icicle_after(double ice_kg, double water_kg, const shared::WeatherMoment& weather, double dt_s);
 
+/// Whether a scene so high has any: they grow as long as a hand, and a thing on a table, below 1.5 m, has none.
+bool carries_icicles(float height_m);
+
 /// Icicles at edges over the time of a weather: what has dripped there and frozen, by what the edges have drained.
 ///
 /// Water that comes: what runs off in rain and after it and what leaves a snow pack, which holds it back for an hour and a half.

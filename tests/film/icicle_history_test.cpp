@@ -72,6 +72,12 @@ TEST(IcicleGrowth, TakesNoMoreWaterThanThereIsAndMeltsAboveZero)
     EXPECT_LT(icicle_after(0.03, 0.0, air(8.0), 3600.0), 0.024);
 }
 
+TEST(IcicleHistory, ThingsOnATableHaveNone)
+{
+    EXPECT_FALSE(carries_icicles(0.7f));
+    EXPECT_TRUE(carries_icicles(2.0f));
+}
+
 TEST(IcicleHistory, LengthGrowsWithTheWaterThatFroze)
 {
     double before = 0.0;
