@@ -246,7 +246,7 @@ void add_pavement(Kit& kit, float x0, float x1, float z_near, float z_far)
     });
 }
 
-// A round iron cover: frame, rim and studs.
+// A round iron cover: frame, rim and studs. The frame's side is below the mortar: what shows is its chamfer.
 void add_cover(Kit& kit)
 {
     MeshBuilder& iron = kit[Slot::Iron];
@@ -255,9 +255,9 @@ void add_cover(Kit& kit)
     iron.color = vec4(1.0f);
     iron.lathe(foot,
                {{kCoverRadius + 0.045f, -0.03f},
-                {kCoverRadius + 0.043f, 0.003f},
-                {kCoverRadius + 0.036f, 0.007f},
-                {kCoverRadius + 0.006f, 0.007f},
+                {kCoverRadius + 0.043f, -kMortar_m - 0.002f},
+                {kCoverRadius + 0.032f, 0.006f},
+                {kCoverRadius + 0.006f, 0.006f},
                 {kCoverRadius, 0.003f},
                 {kCoverRadius - 0.004f, -0.012f},
                 {kCoverRadius - 0.008f, 0.002f},

@@ -9,10 +9,12 @@
 
 float snow_deep_m(SurfaceInput at) { return (1.0 - at.weather.a) * SNOW_BODIED_M; }
 
-// Of wide ground far from all things, where no caps are drawn any more: the snow of the weather on what is level.
+// Of wide ground far from all things or from the eye, where no caps are drawn any more (SnowCapOptions::reach_m): the snow of the
+// weather on what is level.
 float far_snow_m(SurfaceInput at, float open)
 {
-    const float far = clamp((length(at.position.xz) - 25.0) / 10.0, 0.0, 1.0);
+    const float of_things = clamp((length(at.position.xz) - 25.0) / 10.0, 0.0, 1.0);
+    const float far = max(of_things, smooth_edge(33.0, 47.0, distance(at.position, frame.camera_m)));
     const float level = smooth_edge(0.85, 0.95, at.normal.y);
     return min(frame.weather.snow_depth_m * drifted_share(at.position.xz), SNOW_BODIED_M) * (open * far * level);
 }
