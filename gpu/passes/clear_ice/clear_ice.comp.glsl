@@ -50,7 +50,7 @@ bool is_ice(ivec2 texel)
     return uint(code.w * 255.0 + 0.5) == push.model;
 }
 
-// Pixel of a place on a ray; w: 0 behind the eye.
+// Pixel of a place on a ray; z: 0 behind the eye.
 vec3 pixel_of(vec3 place)
 {
     const vec4 clip = frame.world_to_clip * vec4(place, 1.0);
