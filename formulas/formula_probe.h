@@ -15,6 +15,7 @@
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/bent_normal.h"
 #include "formulas/light/brdf.h"
+#include "formulas/light/clear_ice.h"
 #include "formulas/light/clouds.h"
 #include "formulas/light/cube_map.h"
 #include "formulas/light/cube_quads.h"
@@ -76,7 +77,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 87;
+SHARED_CONST int kProbeKinds = 88;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)

@@ -17,6 +17,7 @@
 #include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/background/background.h"
+#include "gpu/passes/clear_ice/clear_ice.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
 #include "gpu/passes/lighting/lighting_io.h"
@@ -512,6 +513,10 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (label && settings.image_based_light) clear_mirrors(graph, *r.targets);
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, *r.probes, constants, variant);
+        if (r.ice_model != 0 && settings.image_based_light) {
+            add_clear_ice(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants, r.ice_model, variant.gusts,
+                          {variant.parts, variant.split, nullptr, false, true, false, r.around, window_of(frame, r)}, pixels);
+        }
         if (r.kept && i == 0) add_keep_around(graph, *r.targets, *r.kept, parts.emission, constants);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,

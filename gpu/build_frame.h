@@ -51,6 +51,7 @@ struct FrameResources {
     PictureAround* kept = nullptr;    ///< what the first sample sees is kept there
     float snow_lift_m = 0.0f;  ///< 0: snow has no body
     bool over_snow = false;    ///< the eye stands in none
+    std::uint32_t ice_model = 0;  ///< what the G-buffer has for the material of icicles that hang; 0: none
     bool materials = false;  ///< an output asks which material a pixel has
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample

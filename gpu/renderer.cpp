@@ -517,6 +517,10 @@ RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, Targ
                   resources.adaptive != nullptr);
     resources.parts = &set.parts;
     resources.materials = std::any_of(aov_rows.begin(), aov_rows.end(), needs_materials);
+    if (icicles && !icicles->laid().vertices.empty()) {
+        resources.ice_model = scene->layered_model(icicles->material());
+        make_ice_list(set.targets, *set.arena);
+    }
     resources.constants = constants.get();
     resources.constants_stride = constants_stride;
     resources.falls_before = &falls_before;

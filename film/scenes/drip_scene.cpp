@@ -16,7 +16,7 @@ namespace petrichor::film {
 namespace {
 
 constexpr const char* kKind = "drips";
-static_assert(sizeof(scene::DripPoint) == 8 * sizeof(float), "no padding: bytes are kept");
+static_assert(sizeof(scene::DripPoint) == 9 * sizeof(float), "no padding: bytes are kept");
 static_assert(std::is_trivially_copyable_v<scene::DripPoint>);
 
 }  // namespace
@@ -52,6 +52,7 @@ std::shared_ptr<const std::vector<scene::DripPoint>> prepare_drips(const scene::
     const scene::Tracer tracer(cut ? *cut : plain);
     scene::DripOptions options;
     options.left_out = leaves;
+    options.gutters = true;
     *points = scene::drip_points(tracer, options);
     if (cache.on()) {
         try {

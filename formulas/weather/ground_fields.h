@@ -17,6 +17,7 @@ SHARED_CONST float kFieldRow_m = 210.0f, kNarrowField_m = 120.0f, kWideField_m =
 SHARED_CONST float kFieldBorder_m = 3.0f;
 SHARED_CONST float kHedge_m = 3.0f;    // half the width of a dark strip on borders ..
 SHARED_CONST float kHedged = 0.028f;  // .. and what of the land they are
+SHARED_CONST float kHedgeBare = 0.75f;  // of a hedge no snow lies on as much: it stands out of it
 
 // How far a place is farmed, 0..1: not around the origin, where the scene stands and its own ground is seen from near, nor on slopes,
 // and only what is green. up: y of the normal of the mesh. base: colour of the ground.
@@ -49,10 +50,15 @@ SHARED_FN FieldRow field_row(float along_m, int row, float soft_m)
     return found;
 }
 
-// Factor of the albedo: 1 in the mean. At strength 1 its deviation is 0.35 of red and 0.2 of green and blue: a moist crop is dark
+struct Field {
+    vec3 tone;    // factor of the albedo
+    float hedge;  // share of hedges here, 0..1
+};
+
+// The tone is 1 in the mean. At strength 1 its deviation is 0.35 of red and 0.2 of green and blue: a moist crop is dark
 // and green, a ripe one pale and yellow, and of other kinds there are brown ones. width_m: of the pixel on the ground; of a pixel that holds
 // many parcels it is 1.
-SHARED_FN vec3 field_tone(vec2 xz, float width_m, float strength)
+SHARED_FN Field field_at(vec2 xz, float width_m, float strength)
 {
     // Rows follow the land.
     const float land = endless_noise(vec2(xz.y - 0.3f * xz.x, xz.x + 0.3f * xz.y) / 1370.0f, 347u) - 0.5f;
@@ -71,11 +77,20 @@ SHARED_FN vec3 field_tone(vec2 xz, float width_m, float strength)
     const float next_m = min(border_m, mix(own.hedge_m, beside.hedge_m, share));
     const float reach_m = max(kHedge_m, 0.5f * width_m);
     const float some = smooth_edge(0.42f, 0.58f, endless_noise(at / 260.0f + 3.1f, 353u));
+    const float strip = some * (kHedge_m / reach_m) * (1.0f - smooth_edge(0.6f * reach_m, 1.4f * reach_m, next_m));
     // Less their mean, or ground with hedges would be darker than its texture says.
-    const float hedge = left * (some * (kHedge_m / reach_m) * (1.0f - smooth_edge(0.6f * reach_m, 1.4f * reach_m, next_m)) - kHedged);
+    const float hedge = left * (strip - kHedged);
     const vec3 tone = splat3(1.0f) - (strength * moist) * vec3(0.56f, 0.29f, 0.30f) + (strength * kind) * vec3(0.22f, 0.05f, 0.18f);
-    return max(tone, splat3(0.25f)) * (1.0f - 0.55f * min(strength, 1.0f) * hedge);
+    Field field;
+    field.tone = max(tone, splat3(0.25f)) * (1.0f - 0.55f * min(strength, 1.0f) * hedge);
+    field.hedge = mix(kHedged, strip, left) * min(strength, 1.0f);
+    return field;
 }
+
+SHARED_FN vec3 field_tone(vec2 xz, float width_m, float strength) { return field_at(xz, width_m, strength).tone; }
+
+// What of a snow cover is seen where so much is hedges.
+SHARED_FN float snow_beside_hedges(float snow, float hedge) { return snow * (1.0f - kHedgeBare * hedge); }
 
 SHARED_END
 

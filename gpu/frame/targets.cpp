@@ -125,6 +125,34 @@ VkDeviceSize light_lists_bytes(int width, int height, int light_words)
     return tiles * (static_cast<VkDeviceSize>(light_words) + 1) * sizeof(glm::uvec2);
 }
 
+namespace {
+
+std::unique_ptr<GpuBuffer> list_of(MemoryArena& arena, const char* name, VkDeviceSize entries)
+{
+    return arena.buffer({.name = name,
+                         .size = (entries + 1) * 4,
+                         .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                         .texel_format = VK_FORMAT_R32_UINT});
+}
+
+std::unique_ptr<GpuBuffer> groups_of(MemoryArena& arena, const char* name)
+{
+    return arena.buffer(
+        {.name = name,
+         .size = sizeof(VkDispatchIndirectCommand),
+         .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+}
+
+}  // namespace
+
+void make_ice_list(FrameTargets& targets, MemoryArena& arena)
+{
+    if (targets.ice_list) return;
+    targets.ice_list = list_of(arena, "ice_list", static_cast<VkDeviceSize>(targets.width) * static_cast<VkDeviceSize>(targets.height));
+    targets.ice_groups = groups_of(arena, "ice_groups");
+}
+
 void make_occlusion(FrameTargets& targets, MemoryArena& arena, bool bent)
 {
     const auto blocks = [&](const char* name, VkDeviceSize words) {
@@ -212,19 +240,8 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                                         .size = light_lists_bytes(width, height, light_words),
                                         .usage = table,
                                         .texel_format = VK_FORMAT_R32G32_UINT});
-    const auto list = [&](const char* name, VkDeviceSize entries) {
-        return arena.buffer({.name = name,
-                             .size = (entries + 1) * 4,
-                             .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                             .texel_format = VK_FORMAT_R32_UINT});
-    };
-    const auto groups = [&](const char* name) {
-        return arena.buffer(
-            {.name = name,
-             .size = sizeof(VkDispatchIndirectCommand),
-             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                      VK_BUFFER_USAGE_TRANSFER_DST_BIT});
-    };
+    const auto list = [&](const char* name, VkDeviceSize entries) { return list_of(arena, name, entries); };
+    const auto groups = [&](const char* name) { return groups_of(arena, name); };
     const VkDeviceSize tiles = static_cast<VkDeviceSize>(divide_up(width, PIXEL_LIST_TILE)) *
                                static_cast<VkDeviceSize>(divide_up(height, PIXEL_LIST_TILE));
     make_occlusion(targets, arena, false);

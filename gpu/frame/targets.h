@@ -73,6 +73,8 @@ struct FrameTargets {
     std::unique_ptr<GpuBuffer> pixel_groups;  ///< the arguments of a dispatch over it
     std::unique_ptr<GpuBuffer> mirror_list;    ///< likewise of pixels that have a mirror_weight, or what occlusion lists
     std::unique_ptr<GpuBuffer> mirror_groups;
+    std::unique_ptr<GpuBuffer> ice_list;  ///< likewise of pixels that show icicles; null until some hang
+    std::unique_ptr<GpuBuffer> ice_groups;
     TileList surface_tiles;  ///< that show a surface
     TileList open_tiles;     ///< that show none somewhere
     std::unique_ptr<GpuBuffer> patch_points;       ///< gpu/frame/patch_points_io.h
@@ -97,6 +99,9 @@ void bind_gbuffer(Bindings& bindings, std::uint32_t first, FrameTargets& targets
 //   reads    the G-buffer
 //   writes   its rows
 void add_gbuffer_rows(FrameGraph& graph, FrameTargets& targets, const GBufferParts& parts);
+
+/// Room for the pixels that show icicles, once.
+void make_ice_list(FrameTargets& targets, MemoryArena& arena);
 
 /// Makes both anew, with room for bent normals or without.
 void make_occlusion(FrameTargets& targets, MemoryArena& arena, bool bent);

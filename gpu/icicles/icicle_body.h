@@ -20,6 +20,8 @@ public:
     /// What the scene is made with: room for all of them.
     const Overlay& overlay() const { return overlay_; }
 
+    std::uint32_t material() const { return icicles_->material; }
+
     /// Shapes those of a frame, by their lengths alone; true when they are others than before.
     bool lay(const Frame& frame);
     /// Empty: there are none.

@@ -209,6 +209,8 @@ public:
     bool two_sets() const { return two_sets_; }
     const OwnSurfaces& own_surfaces() const { return own_surfaces_; }
     const LightingModels& lighting_models() const { return lighting_models_; }
+    /// What the G-buffer has for a material that has layers of its own; 0: it has none.
+    std::uint32_t layered_model(std::uint32_t material) const;
 
 private:
     void upload_looks(const Device& device, const Scene& scene);

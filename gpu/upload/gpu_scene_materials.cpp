@@ -319,6 +319,13 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
     return lighting_models_.count() + static_cast<std::uint32_t>(row);
 }
 
+std::uint32_t GpuScene::layered_model(std::uint32_t material) const
+{
+    const GpuMaterial& m = materials_[material];
+    if (m.layers == 0 || m.layers_row == 0 || m.layers_row == second_lobe_row_) return 0;
+    return lighting_models_.count() + m.layers_row - 1;
+}
+
 void GpuScene::sum_up_materials()
 {
     const auto any = [this](auto&& is) {

@@ -22,6 +22,10 @@ constexpr float kSpacing_m = 0.04f;
 constexpr float kOut_m = 0.015f;      // drops fall so far before the edge
 constexpr float kOpenBelow_m = 0.3f;
 constexpr float kLongestFall_m = 30.0f;
+constexpr float kCaughtBelow_m = 0.15f;  // a gutter hangs no lower
+constexpr float kGutter_m = 0.3f;     // nor reaches as far out
+constexpr float kRim_m = 0.02f;       // its side is looked for so far below where drops land
+constexpr float kClearOf_m = 0.03f;
 constexpr float kFascia_m = 0.5f;     // water runs down a board at the edge, and drips from that
 constexpr float kFasciaStep_m = 0.02f;
 constexpr float kFasciaNear_m = 0.04f;
@@ -187,6 +191,34 @@ bool leaves_at(const Tracer& tracer, const Edge& edge, const vec3& middle, DripP
     return true;
 }
 
+// Where water runs over what catches it right below an edge, as a gutter does that is full of ice: from below its outer side,
+// where that is free. False where it is none: the next row of tiles, a sill in front of a wall, the ground.
+bool runs_over_at(const Tracer& tracer, const Edge& edge, const vec3& middle, DripPoint& point)
+{
+    const vec3 down(0.0f, -1.0f, 0.0f), above = middle + edge.out * kOut_m + vec3(0.0f, 0.01f, 0.0f);
+    const RayHit caught = tracer.nearest({above, down, kCaughtBelow_m});
+    if (!caught.hit()) return false;
+    const float rim_m = above.y - caught.distance_m - kRim_m;
+    const vec3 outside = vec3(above.x, rim_m, above.z) + edge.out * kGutter_m;
+    const RayHit side = tracer.nearest({outside, -edge.out, kGutter_m});
+    if (!side.hit() || side.distance_m < kClearOf_m) return false;
+    const vec3 lip = outside - edge.out * side.distance_m;
+    const vec3 beside = lip + edge.out * kClearOf_m;
+    if (tracer.blocked({beside, down, kOpenBelow_m}) || tracer.blocked({beside, edge.out, kGutter_m})) return false;
+    const vec3 below = lip - edge.out * kOut_m - vec3(0.0f, kOpenBelow_m, 0.0f);
+    const RayHit under = tracer.nearest({below, -down, kOpenBelow_m});
+    if (!under.hit()) return false;
+    const vec3 at = below + vec3(0.0f, under.distance_m, 0.0f);
+    const vec3 free = at + down * 0.005f;
+    const RayHit hit = tracer.nearest({free, down, kLongestFall_m});
+    if (!hit.hit() || hit.distance_m < kOpenBelow_m) return false;
+    point.from_m = at + edge.out * kOut_m;
+    point.ground_m = free.y - hit.distance_m;
+    point.out = {edge.out.x, edge.out.z};
+    point.gutter = 1;
+    return true;
+}
+
 // How far in from an edge the same surface goes on up, in plan, as far as rain reaches it.
 float open_run_m(const Tracer& tracer, const Edge& edge, const vec3& middle)
 {
@@ -218,7 +250,7 @@ std::vector<DripPoint> drip_points(const Tracer& tracer, const DripOptions& opti
             const float t = (static_cast<float>(k) + 0.5f) / static_cast<float>(pieces);
             const vec3 middle = glm::mix(edge.from, edge.to, t);
             DripPoint point;
-            if (!leaves_at(tracer, edge, middle, point)) continue;
+            if (!leaves_at(tracer, edge, middle, point) && !(options.gutters && runs_over_at(tracer, edge, middle, point))) continue;
             const float run_m = open_run_m(tracer, edge, middle);
             if (run_m < kLeastRun_m) continue;
             // So many as stand on it in the mean: short edges have one now and then.

@@ -17,11 +17,13 @@ struct DripPoint {
     float ground_m = 0.0f;          ///< height of what is met straight below
     float drained_m2 = 0.0f;        ///< in plan: what is open to the sky and runs off here
     std::uint32_t number = 0;       ///< follows from its place: what is hashed
+    std::uint32_t gutter = 0;       ///< 1: what catches it takes the water away; where that is frozen it runs over there
     glm::vec2 out{0.0f};            ///< away from the surface above, unit, world x and z
 };
 
 struct DripOptions {
     std::size_t most_points = 16384;             ///< those of the longest edges
+    bool gutters = false;                          ///< points below the outer sides of what catches the water, too
     std::span<const std::uint8_t> left_out = {};  ///< by material, 1: lets no drops go, as leaves; may be shorter
 };
 

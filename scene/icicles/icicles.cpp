@@ -197,10 +197,10 @@ void add_icicle_material(Scene& scene)
 {
     Material ice;
     ice.name = kName;
-    // Light that a round body of clear ice bends comes from all around, half of it from behind; bubbles whiten it. Ours, by eye.
-    ice.base_color = glm::vec4(0.80f, 0.86f, 0.90f, 1.0f);
+    // What bubbles scatter, half of it from behind; the rest is seen through it (formulas/light/clear_ice.h). Ours, by eye.
+    ice.base_color = glm::vec4(0.20f, 0.215f, 0.225f, 1.0f);
     ice.metallic = 0.0f;
-    ice.roughness = 0.12f;
+    ice.roughness = 0.06f;
     ice.ior = 1.31f;
     ice.diffuse_transmission = 0.5f;
     ice.weather.wetness = Wetness::None;

@@ -112,6 +112,23 @@ TEST(GroundFields, AreParcelsOfOneCropEach)
     EXPECT_LT(step, 0.03f);
 }
 
+// As much of the land is hedges in pixels of any width, and they stand out of the snow.
+TEST(GroundFields, HedgesAreThatMuchOfTheLandAndStandOutOfSnow)
+{
+    for (const float width_m : {0.0f, 20.0f, 60.0f, 300.0f}) {
+        const Spread s = spread_of(100000, [&](vec2 at) { return field_at(at, width_m, 1.0f).hedge; });
+        EXPECT_NEAR(s.mean, static_cast<double>(kHedged), 0.006) << width_m;
+        EXPECT_GE(s.least, 0.0);
+        EXPECT_LE(s.most, 1.0);
+        if (width_m == 0.0f) {
+            EXPECT_GT(s.most, 0.99);
+        }
+    }
+    EXPECT_EQ(snow_beside_hedges(0.8f, 0.0f), 0.8f);
+    EXPECT_LT(snow_beside_hedges(0.8f, 1.0f), 0.25f);
+    EXPECT_EQ(field_at({900.0f, 40.0f}, 3.0f, 0.0f).hedge, 0.0f);
+}
+
 TEST(GroundFields, AreOfLevelGreenGroundFarFromTheScene)
 {
     const vec3 green(0.1f, 0.17f, 0.05f), soil(0.2f, 0.16f, 0.12f), grey(0.15f);

@@ -83,6 +83,35 @@ TEST_F(GroundToneTest, OfWideGroundIsThatOfTheFormulaAndOfSmallGroundNone)
     }
 }
 
+// Hedges of far fields stand out of the snow, as much as the formula says.
+TEST_F(GroundToneTest, HedgesOfFarFieldsStandOutOfSnow)
+{
+    renderer->load(field(1200.0f), {});
+    const auto snow = [&](float variation) {
+        Frame frame = from_above(1080.0f, variation);
+        frame.settings.aovs = {"snow", "position"};
+        frame.settings.snow_body = false;
+        frame.weather.snow_amount = 1.0f;
+        frame.look.snow_line_ragged = 0.0f;
+        return renderer->render(frame);
+    };
+    const RenderResult plain = snow(0.0f), varied = snow(1.0f);
+    const float pixel_m = 1080.0f / kSize;
+    float most = 0.0f;
+    for (int y = 4; y < kSize; y += 3) {
+        for (int x = 4; x < kSize; x += 3) {
+            const glm::vec2 at(aov(varied, "position", x, y, 0), aov(varied, "position", x, y, 2));
+            const float hedge = shared::field_at(at, pixel_m, shared::farmed_share(at, 1.0f, {0.2f, 0.3f, 0.1f})).hedge;
+            const float was = aov(plain, "snow", x, y);
+            EXPECT_GT(was, 0.9f);
+            // The G-buffer keeps it in 8 bits.
+            EXPECT_NEAR(aov(varied, "snow", x, y), shared::snow_beside_hedges(was, hedge), 0.006f) << at.x << ", " << at.y;
+            most = std::max(most, hedge);
+        }
+    }
+    EXPECT_GT(most, 0.1f);
+}
+
 // A dusting: small ground is bare until its snow closes, wide ground turns pale, the more the less it is inclined.
 TEST_F(GroundToneTest, ThinSnowLiesAmongTheBladesOfWideGround)
 {

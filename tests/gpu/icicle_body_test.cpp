@@ -136,6 +136,57 @@ TEST_F(IcicleBodyTest, ThrowShadows)
     EXPECT_LT(ground(0.8f), 0.995 * ground(0.0f));
 }
 
+// A hand's width before a wall that glows red on the left and green on the right, and nothing else.
+TEST_F(IcicleBodyTest, ShowTheirSurroundingsTheOtherWayRound)
+{
+    constexpr float kGlow = 2.0e4f;
+    std::vector<Material> materials{plain_material(glm::vec3(0.2f))};
+    std::vector<Primitive> faces{quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), quad({-6, -2, -0.06f}, {6, 0, 0}, {0, 8, 0}),
+                                 quad({0, -2, -0.06f}, {6, 0, 0}, {0, 8, 0})};
+    for (std::uint32_t k = 1; k < 3; ++k) {
+        faces[k].material = k;
+        materials.push_back(plain_material(glm::vec3(0.0f)));
+        materials.back().emissive = k == 1 ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+        materials.back().emissive_strength = kGlow;
+    }
+    Scene walls = scene_of(std::move(faces), materials);
+    scene::add_icicle_material(walls);
+    std::vector<scene::DripPoint> one(points.begin(), points.begin() + 1);  // before the seam of both
+    one[0].from_m = {0.0f, 1.985f, 0.015f};
+    one[0].drained_m2 = 1.0f;
+    auto hung = std::make_shared<scene::Icicles>(scene::hang_icicles(one, std::vector<glm::vec3>{{0, 1.9f, 1}}));
+    ASSERT_TRUE(scene::find_icicle_material(walls, *hung));
+    renderer->load(walls, {}, nullptr, hung);
+    Frame f = frame(1.5f);
+    f.camera = look({0, 1.9f, 0.45f}, {0, 1.9f, 0});
+    f.camera.vertical_fov_rad = 0.25f;
+    f.settings.aovs = {"material", "transmission"};
+    const RenderResult r = renderer->render(f);
+    const auto ice = [&](int x, int y) { return std::lround(aov(r, "material", x, y)) == static_cast<long>(hung->material); };
+    int width = 0;
+    for (int x = 0; x < kSize; ++x) width += ice(x, kSize / 2) ? 1 : 0;
+    ASSERT_GT(width, 16);
+    // Of half of its width, beside the seam.
+    const auto mean = [&](int from, int to) {
+        glm::dvec3 sum(0.0);
+        int pixels = 0;
+        for (int y = kSize / 2 - 4; y < kSize / 2 + 4; ++y) {
+            for (int x = kSize / 2 + from; x < kSize / 2 + to; ++x) {
+                EXPECT_TRUE(ice(x, y));
+                for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(aov(r, "transmission", x, y, c)) / kGlow;
+                ++pixels;
+            }
+        }
+        return sum / static_cast<double>(pixels);
+    };
+    const glm::dvec3 left = mean(-width / 4, -2), right = mean(2, width / 4);
+    EXPECT_GT(left.y, 10.0 * left.x);
+    EXPECT_GT(right.x, 10.0 * right.y);
+    // Most of what the walls send out comes through.
+    EXPECT_NEAR(left.y, 0.68, 0.04);
+    EXPECT_NEAR(right.x, 0.68, 0.04);
+}
+
 TEST_F(IcicleBodyTest, WaterDripsFromTheirTips)
 {
     IcicleBody body(icicles);

@@ -74,6 +74,36 @@ TEST(DripPoints, NoneUnderARoofAndLessUnderHalfOfOne)
     EXPECT_TRUE(points_of(roofed).empty());
 }
 
+// Of what runs over where it freezes: below the outer side of a gutter, and of nothing else that catches water.
+TEST(DripPoints, AreBelowTheOuterSideOfAGutterIfAsked)
+{
+    const DripOptions options{.gutters = true};
+    Scene bare = on_ground();
+    add_awning(bare);
+    EXPECT_EQ(points_of(bare, options).size(), points_of(bare).size());
+    for (const DripPoint& p : points_of(bare, options)) EXPECT_EQ(p.gutter, 0u);
+
+    Scene gutter = bare;  // of 12 by 8 cm below the edge
+    add_box(gutter, {1.98f, 2.88f, -0.2f}, {2.10f, 2.96f, 4.2f}, false);
+    const auto points = points_of(gutter, options);
+    std::vector<DripPoint> over;
+    for (const DripPoint& p : points)
+        if (p.gutter != 0) over.push_back(p);
+    EXPECT_NEAR(static_cast<double>(over.size()), 100.0, 20.0);
+    for (const DripPoint& p : over) {
+        EXPECT_NEAR(p.from_m.x, 2.10f, 1e-3f);
+        EXPECT_NEAR(p.from_m.y, 2.88f, 1e-3f);
+        EXPECT_NEAR(p.ground_m, 0.0f, 1e-3f);
+    }
+    EXPECT_NEAR(drained_m2(over), 8.0f, 1.6f) << "all that falls on the sheet";
+    for (const DripPoint& p : points_of(gutter)) EXPECT_EQ(p.gutter, 0u);
+
+    Scene rows = on_ground();  // tiles over tiles: the next row is no gutter
+    add_awning(rows);
+    add_face(rows, {1.9f, 2.98f, 4}, {2, -1, 0}, {0, 0, -4});
+    for (const DripPoint& p : points_of(rows, options)) EXPECT_EQ(p.gutter, 0u);
+}
+
 TEST(DripPoints, NoneIntoAGutterOnWallsOnTheGroundOrAtTheRimOfTheScene)
 {
     Scene gutter = on_ground();

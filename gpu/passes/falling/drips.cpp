@@ -217,6 +217,7 @@ std::vector<shared::FallingDrop> drips(std::span<const scene::DripPoint> points,
     std::vector<Seen> seen;
     double expected = 0.0;
     for (const scene::DripPoint& point : points) {
+        if (point.gutter != 0) continue;
         const float fall_m = point.from_m.y - point.ground_m;
         if (!of.sees(point, fall_m)) continue;
         const float per_s = drips_per_s(point, runs_off);

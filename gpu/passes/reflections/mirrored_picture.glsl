@@ -3,6 +3,13 @@
 #ifndef PETRICHOR_GPU_PASSES_REFLECTIONS_MIRRORED_PICTURE_GLSL
 #define PETRICHOR_GPU_PASSES_REFLECTIONS_MIRRORED_PICTURE_GLSL
 
+// Those that read the picture otherwise say how before the include.
+#ifndef MIRRORED_LIGHT
+#define MIRRORED_LIGHT(at) texelFetch(radiance_map, at, 0)
+#define MIRRORED_GLOW(at) texelFetch(emission_rows, row_texel(at, frame.size))
+#define AROUND_GLOW(at) texelFetch(around_glow, at)
+#endif
+
 const float kBeyond = 0.125;  // of the width: so far the picture is taken to go on beyond its sides
 
 ivec2 picture_size()
@@ -65,11 +72,11 @@ vec3 picture_at(ivec2 pixel, float roughness)
     if (beyond_window(at)) {
         const int texel = around_texel(pixel);
         vec3 seen = texelFetch(around_light, texel).rgb;
-        if (GLOWS != 0u) seen -= min(seen, texelFetch(around_glow, texel).rgb * glow_share(roughness));
+        if (GLOWS != 0u) seen -= min(seen, AROUND_GLOW(texel).rgb * glow_share(roughness));
         return seen;
     }
-    vec3 seen = texelFetch(radiance_map, at, 0).rgb;
-    if (GLOWS != 0u) seen -= min(seen, texelFetch(emission_rows, row_texel(at, frame.size)).rgb * glow_share(roughness));
+    vec3 seen = MIRRORED_LIGHT(at).rgb;
+    if (GLOWS != 0u) seen -= min(seen, MIRRORED_GLOW(at).rgb * glow_share(roughness));
     return seen;
 }
 

@@ -117,7 +117,11 @@ SurfaceData evaluate_surface(SurfaceInput at)
         // What grows on land of a control map is told by that.
         const float farmed = LAYERED ? 0.0 : farmed_share(at.position.xz, at.normal.y, base);
         base *= ground_tone(at.position.xz, width_m, frame.look.ground_variation);
-        if (farmed > 0.0) base *= field_tone(at.position.xz, width_m, frame.look.ground_variation * farmed);
+        if (farmed > 0.0) {
+            const Field field = field_at(at.position.xz, width_m, frame.look.ground_variation * farmed);
+            base *= field.tone;
+            if (SNOW != 0u) cover.snow = snow_beside_hedges(cover.snow, field.hedge);
+        }
     }
 #ifdef SURFACE_ALPHA
     data.alpha = surface_alpha(at);
