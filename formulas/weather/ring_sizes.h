@@ -48,14 +48,20 @@ SHARED_FN RingSize ring_size(float chance, float spread)
     return size;
 }
 
+// Whether a ring is where a texel of the map lies, at that age. Most of a map is water between rings.
+SHARED_FN bool ring_is_here(vec4 source, float age)
+{
+    const float front = age - 1.0f + source.x;
+    return front > 0.0f && front < 0.33333333f && source.x > 0.0f;
+}
+
 // As ripple_slope(), of the drop that has hit there last. source: its time is not blended with its neighbour's.
 SHARED_FN vec2 sized_ripple_slope(vec4 source, RippleLayer rings, int layer, float spread)
 {
     const float since = source.w + rings.clock;
     const float age = fract(since);
     const float front = age - 1.0f + source.x;
-    // Most of a map is water between rings.
-    if (!(front > 0.0f) || front >= 0.33333333f || !(source.x > 0.0f)) return splat2(0.0f);
+    if (!ring_is_here(source, age)) return splat2(0.0f);
     const int turn = int(rings.begun + floor(since));
     const uint drop = hash_u3(uint(turn), uint(255.0f * source.w + 0.5f), 911u + uint(layer));
     const RingSize size = ring_size(hash_f(drop), spread);

@@ -16,7 +16,7 @@ layout(constant_id = RESOLVE_SPEC_SHAPES) const uint SHAPES = 0u;
 layout(constant_id = RESOLVE_SPEC_IN_WORLD) const uint IN_WORLD = 0u;
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
-layout(local_size_x = RESOLVE_GROUP) in;
+layout(local_size_x_id = RESOLVE_SPEC_INVOCATIONS) in;
 layout(set = 0, binding = RESOLVE_IDS) uniform usamplerBuffer ids;  // row by row
 layout(set = 0, binding = RESOLVE_VERTICES) uniform usamplerBuffer vertices;
 layout(set = 0, binding = RESOLVE_INDICES) uniform usamplerBuffer indices;
@@ -130,14 +130,8 @@ vec3 lit_at_vertices(int draw, ivec3 corners, vec2 at, float side)
 
 #include "gpu/passes/surface_resolve/shape_point.glsl"
 
-void main()
+void shade(uint at_list)
 {
-    read_constants();
-    // A list ends where listing left its counter; it begins where the one before ends.
-    const int number = int(params.list);
-    const uint begin = number > 0 ? texelFetch(ends, number - 1).r : 0u;
-    const uint at_list = begin + gl_GlobalInvocationID.x;
-    if (at_list >= texelFetch(ends, number).r) return;
     const uint packed = texelFetch(pixels, int(at_list)).r;
     const ivec2 pixel = ivec2(packed & 65535u, packed >> 16);
     const uvec2 id = texelFetch(ids, pixel.y * int(params.width) + pixel.x).rg;
@@ -212,4 +206,20 @@ void main()
 #undef ROW
     if (SURFACE_WEATHER == WEATHER_WET) imageStore(out_wet, pixel, wet_code(kept_weather(data.texel), data.texel.material));
     if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares, kind_of_shares()));
+}
+
+// A CPU has one invocation a lane for all pixels of a group: its constants are read once for them.
+void main()
+{
+    read_constants();
+    // A list ends where listing left its counter; it begins where the one before ends.
+    const int number = int(params.list);
+    const uint begin = number > 0 ? texelFetch(ends, number - 1).r : 0u;
+    const uint end = texelFetch(ends, number).r;
+    uint at_list = begin + gl_WorkGroupID.x * RESOLVE_GROUP + gl_LocalInvocationID.x;
+    uint turns = RESOLVE_GROUP / gl_WorkGroupSize.x;
+    do {
+        if (at_list < end) shade(at_list);
+        at_list += gl_WorkGroupSize.x;
+    } while (--turns > 0u && at_list < end);
 }

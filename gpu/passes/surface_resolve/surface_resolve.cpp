@@ -227,6 +227,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_PLACE, weather.place},
             {SURFACE_SPEC_VERTEX_LIGHT, by_vertex},
             {FRAME_SPEC_LANES, lanes},
+            {RESOLVE_SPEC_INVOCATIONS, lanes != 0 ? lanes : RESOLVE_GROUP},
             {RESOLVE_SPEC_WEATHER, kept},
             {RESOLVE_SPEC_EMISSION, glows(material)},
             {RESOLVE_SPEC_PAYLOAD, (material.besides & BESIDES_AS_CLEARED) == 0},

@@ -49,6 +49,7 @@
 #define RESOLVE_SPEC_BAKED 7
 #define RESOLVE_SPEC_SHAPES 36   // 1: marched shapes show the material
 #define RESOLVE_SPEC_IN_WORLD 37  // 1: meshes that show the material are laid out in the world
+#define RESOLVE_SPEC_INVOCATIONS 44  // of a workgroup: RESOLVE_GROUP, or the lanes of a CPU, which take turns
 #define RESOLVE_SPEC_PAYLOAD 35  // 0: as the target is cleared
 
 SHARED_BEGIN
