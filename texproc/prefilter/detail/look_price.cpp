@@ -13,9 +13,9 @@ namespace {
 // What a light costs that is worse than with plain mips, and what a view of it does, beside their part of the mean;
 // and over how much of a change the price of a light sets in.
 constexpr double kWorseLight = 12.0, kWorseView = 3.0, kGently = 0.02;
-// What a light costs of which all views are worse, that was sought because it is, and how much more for being worse
-// by 1: most of it is for what is worst.
-constexpr double kSoughtLight = 0.02, kSoughtMore = 40.0;
+// What a light costs that was sought because it is worse, and how much more for being worse by 1: most of it is for
+// what is worst.
+constexpr double kSoughtLight = 0.035, kSoughtMore = 40.0;
 // Downhill with a step for each number by its own slopes (Adam), from a rate of .3 steps to a hundredth of one.
 constexpr int kSteps = 150;
 constexpr float kRate = 0.3f, kLastRate = 0.03f, kKeepSlope = 0.8f, kKeepSquare = 0.95f;
@@ -106,12 +106,14 @@ double look_price(std::span<const double> changes, std::span<double> slope)
 
 double worst_price(std::span<const double> changes, std::span<double> slope)
 {
-    constexpr double kOfView = kSoughtLight / kHeldOutViews;
     double sum = 0.0;
-    for (std::size_t i = 0; i < changes.size(); ++i) {
-        const double worse = kGently * soft_plus(changes[i] / kGently);
-        sum += kOfView * worse * (1.0 + 0.5 * kSoughtMore * worse);
-        slope[i] = kOfView * (1.0 + kSoughtMore * worse) / (1.0 + std::exp(-changes[i] / kGently));
+    for (std::size_t first = 0; first < changes.size(); first += kHeldOutViews) {
+        double light = 0.0;
+        for (std::size_t i = first; i < first + kHeldOutViews; ++i) light += changes[i] / kHeldOutViews;
+        const double worse = kGently * soft_plus(light / kGently);
+        sum += kSoughtLight * worse * (1.0 + 0.5 * kSoughtMore * worse);
+        const double of_light = kSoughtLight * (1.0 + kSoughtMore * worse) / (1.0 + std::exp(-light / kGently));
+        for (std::size_t i = first; i < first + kHeldOutViews; ++i) slope[i] = of_light / kHeldOutViews;
     }
     return sum;
 }

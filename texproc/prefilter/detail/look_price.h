@@ -17,8 +17,8 @@ namespace petrichor::texproc::detail {
 ///   slope    by how much more it costs for more of each; as many
 double look_price(std::span<const double> changes, std::span<double> slope);
 
-/// And what those of worst_lights() cost beside that, which are no part of the mean: each view for what it is worse by
-/// than plain mips, and the more for each per cent the worse it is. It sets in as gently.
+/// And what those of worst_lights() cost beside that, which are no part of the mean: each light for what it is worse by
+/// than plain mips in the mean of its views, and the more for each per cent the worse it is. It sets in as gently.
 double worst_price(std::span<const double> changes, std::span<double> slope);
 
 /// Steps of the numbers for which the forms cost least by look_price() and by their flicker (kFlickerWeight), as far as

@@ -10,8 +10,8 @@ namespace petrichor::texproc::detail {
 
 /// The lights under which a chain loses most against plain mips, or gains least: suns some seven degrees apart over the
 /// sky that held_out_pictures() draw from, and windows ahead, are looked at from kHeldOutViews of their views each, and
-/// the worst come back with these views, one light after another, none near to another. Those under which every view
-/// gains clearly are left out, so there may be none at all.
+/// the worst come back with these views, one light after another, none near to another. Those that gain clearly in the
+/// mean of their views are left out, so there may be none at all.
 ///
 ///   of_maps  holds the maps
 ///   floors   held_out_pictures(): views, threads
