@@ -12,6 +12,7 @@
 
 #include "texproc/prefilter/detail/fit_parts.h"
 #include "texproc/prefilter/detail/look_price.h"
+#include "texproc/prefilter/detail/worst_lights.h"
 #include "texproc/study/fresh_maps.h"
 
 namespace petrichor::texproc {
@@ -243,6 +244,88 @@ TEST(LookPrice, ItsSlopeIsThatOfThePrice)
         more[i] += kStep, less[i] -= kStep;
         EXPECT_NEAR((look_price(more, unused) - look_price(less, unused)) / (2.0 * kStep), slope[i], 1e-3) << i;
     }
+}
+
+// And the worse a picture is, the more each per cent costs.
+TEST(WorstPrice, ItsSlopeIsThatOfThePriceAndGrows)
+{
+    std::vector<double> changes(3 * kHeldOutViews), slope(changes.size()), unused = slope;
+    for (std::size_t i = 0; i < changes.size(); ++i)
+        changes[i] = 0.03 * static_cast<double>(i / kHeldOutViews) + 0.02 * std::sin(static_cast<double>(7 * i + 1));
+    detail::worst_price(changes, slope);
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        constexpr double kStep = 1e-5;
+        std::vector<double> more = changes, less = changes;
+        more[i] += kStep, less[i] -= kStep;
+        EXPECT_NEAR((detail::worst_price(more, unused) - detail::worst_price(less, unused)) / (2.0 * kStep), slope[i], 1e-4);
+        if (i >= kHeldOutViews) {
+            EXPECT_GT(slope[i], slope[i - kHeldOutViews]) << i;
+        }
+    }
+}
+
+// The mean gains for ever; what was sought loses as much, and holds it where it is hardly worse.
+TEST(WorstPrice, WhatWasSoughtHoldsBackTheMean)
+{
+    const std::vector<PictureForms::Case> gains(8 * kHeldOutViews, {{1.0, {-0.0005f}, {1e-6f}}, {1.0, {0.0f}, {0.0f}}});
+    const std::vector<PictureForms::Case> loses(kHeldOutViews, {{1.0, {0.05f}, {1e-4f}}, {1.0, {-0.1f}, {0.05f}}});
+    PictureForms forms{1, gains};
+    std::vector<PictureScore> plain(gains.size(), {"", 1.0, 1.0});
+    const float low[] = {-20.0f}, high[] = {20.0f};
+    EXPECT_GT(cheapest_steps(forms, plain, low, high, 1).front(), 8.0f);
+    forms.cases.insert(forms.cases.end(), loses.begin(), loses.end());
+    plain.resize(forms.cases.size(), {"", 1.0, 1.0});
+    const float held = cheapest_steps(forms, plain, low, high, 1, kHeldOutViews).front();
+    EXPECT_GT(held, 0.2f);
+    EXPECT_LT(held, 4.0f);
+}
+
+// Highlights that are too wide lose where plain mips have the sun ahead: lights that lose most, as other pictures say.
+TEST(WorstLights, AreThoseUnderWhichTheChainLosesMost)
+{
+    const ScoredMaps maps = material("rivets", 64);
+    const PictureBench bench(maps.normal, maps.roughness, {}, few_pictures());
+    Prefiltered chain = two_lobes(maps);
+    for (std::size_t k = 1; k < chain.roughness.size(); ++k)
+        for (std::vector<Image>* levels : {&chain.roughness, &chain.second.roughness})
+            for (float& p : (*levels)[k].pixels) p = std::min(1.3f * p, 1.0f);
+    PictureOptions floors = held_out_pictures(SurfaceClass::Paint, 5);
+    PictureOptions found = detail::worst_lights(bench, floors, kTwoLobes, chain, 11);
+    ASSERT_FALSE(found.lights.empty());
+    ASSERT_EQ(found.cases.size(), found.lights.size() * kHeldOutViews);
+    for (std::size_t i = 0; i < found.cases.size(); ++i) {
+        EXPECT_EQ(found.cases[i].light, static_cast<int>(i / kHeldOutViews));
+        EXPECT_FALSE(found.cases[i].metal);
+        EXPECT_LT(found.views[static_cast<std::size_t>(found.cases[i].view)].covers, 0.2) << "none of large pixels";
+    }
+    for (std::size_t i = 0; i < found.lights.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if ((found.lights[i].alpha > 0.0f) != (found.lights[j].alpha > 0.0f)) continue;
+            double cosine = 0.0;
+            for (std::size_t c = 0; c < 3; ++c)
+                cosine += static_cast<double>(found.lights[i].to_light[c] * found.lights[j].to_light[c]);
+            EXPECT_LT(cosine, std::cos(4.9 * 3.14159265 / 180.0)) << i << ", " << j;
+        }
+    }
+    // In pictures of its own, against as many that were not sought.
+    const auto change = [&](PictureOptions pictures) {
+        pictures.seed = 99;
+        const PictureBench of(bench, pictures);
+        const auto plain = of.score({}), scores = of.score(chain);
+        double sum = 0.0, seen = 0.0;
+        for (std::size_t i = 0; i < scores.size(); ++i) {
+            if (pictures.views[static_cast<std::size_t>(pictures.cases[i].view)].covers > 0.2) continue;
+            sum += scores[i].rmse / plain[i].rmse - 1.0;
+            ++seen;
+        }
+        return sum / seen;
+    };
+    EXPECT_GT(change(found), change(floors) + 0.03) << change(floors);
+    // The same seed, the same lights; another one, others.
+    const PictureOptions again = detail::worst_lights(bench, floors, kTwoLobes, chain, 11);
+    ASSERT_EQ(again.lights.size(), found.lights.size());
+    for (std::size_t i = 0; i < found.lights.size(); ++i) EXPECT_EQ(again.lights[i].to_light, found.lights[i].to_light);
+    EXPECT_NE(detail::worst_lights(bench, floors, kTwoLobes, chain, 12).lights[0].to_light, found.lights[0].to_light);
 }
 
 TEST(HeldOutPictures, AreEachMaterialsOwnAndNoneOfTheScored)

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/hash.h"
@@ -12,13 +14,15 @@
 #include "texproc/prefilter/detail/fit_parts.h"
 #include "texproc/prefilter/detail/look_price.h"
 #include "texproc/prefilter/detail/picture_cost.h"
+#include "texproc/prefilter/detail/worst_lights.h"
 
 namespace petrichor::texproc::detail {
 
 namespace {
 
 constexpr double kClear = 1e-3;  // a smaller gain changes nothing
-constexpr int kRounds = 5;
+// So many rounds downhill, then as many times the worst lights are sought and it goes on with them.
+constexpr int kRounds = 2, kSearches = 2;
 constexpr float kFarthest = 4.0f;                 // so many steps of a number in a round
 constexpr float kShares[] = {1.0f, 0.5f, 0.25f};  // of what the forms say, which holds for small steps
 
@@ -56,13 +60,12 @@ public:
         : options_(options),
           chain_(chain),
           parts_(parts_of(chain)),
-          plain_scores_(bench.score({})),
-          retake_(bench),
           start_(fitted_levels(chain)),
           plain_(start_),
           now_(start_.size(), as_fitted()),
           best_(now_)
     {
+        see(bench);
         const std::vector<Image> roughness = bench.plain_roughness();
         for (std::size_t k = 1; k < start_.size(); ++k) {
             if (start_[k][kRoughness].empty()) continue;
@@ -76,6 +79,13 @@ public:
         }
     }
 
+    /// With the floors, and then those of worst_lights(), too; `bench` must outlive this.
+    void see(const PictureBench& bench)
+    {
+        seen_.push_back({PictureBench::Retake(bench), bench.score({}), ~0u});
+    }
+
+    /// Goes on from the best numbers so far, which the chain then has; whether they are others than those of the fit.
     bool run()
     {
         if (levels_.empty()) return false;
@@ -86,7 +96,7 @@ public:
             if (!go(farthest)) farthest *= 0.5f;
             if (cost_ > before - kClear && farthest < 1.0f) break;
         }
-        show(best_);
+        change_to(best_);
         return best_ != std::vector<Weighed>(best_.size(), as_fitted());
     }
 
@@ -107,12 +117,19 @@ private:
     {
         cost(best_);  // what the forms are about
         const std::size_t count = levels_.size() * kNumbers;
-        const PictureForms forms = retake_.forms(chain_, count, [&](std::size_t i) {
-            std::vector<Weighed> levels = best_;
-            if (i < count) number(levels, i) += kRanges[i % kNumbers].step;
-            changed_ |= show(levels);
-            return i < count ? levels_[i / kNumbers] : 0;
-        });
+        PictureForms forms{count, {}};
+        std::vector<PictureScore> plain;
+        for (const Seen& seen : seen_) {
+            PictureForms more = seen.retake.forms(chain_, count, [&](std::size_t i) {
+                std::vector<Weighed> levels = best_;
+                if (i < count) number(levels, i) += kRanges[i % kNumbers].step;
+                change_to(levels);
+                return i < count ? levels_[i / kNumbers] : 0;
+            });
+            std::move(more.cases.begin(), more.cases.end(), std::back_inserter(forms.cases));
+            plain.insert(plain.end(), seen.plain.begin(), seen.plain.end());
+        }
+        const std::size_t sought = plain.size() - seen_.front().plain.size();
         std::vector<float> low(count, 0.0f), high = low;
         for (std::size_t i = 0; i < count; ++i) {
             const Range& range = kRanges[i % kNumbers];
@@ -122,7 +139,7 @@ private:
             low[i] = std::max(std::min(to_least, to_most), -farthest);
             high[i] = std::min(std::max(to_least, to_most), farthest);
         }
-        const std::vector<float> steps = cheapest_steps(forms, plain_scores_, low, high, kNumbers);
+        const std::vector<float> steps = cheapest_steps(forms, plain, low, high, kNumbers, sought);
         for (const float share : kShares) {
             std::vector<Weighed> levels = best_;
             for (std::size_t i = 0; i < count; ++i) number(levels, i) += share * steps[i] * kRanges[i % kNumbers].step;
@@ -139,6 +156,11 @@ private:
         return levels[levels_[i / kNumbers]][i % kNumbers];
     }
 
+    void change_to(const std::vector<Weighed>& levels)
+    {
+        const std::uint32_t changed = show(levels);
+        for (Seen& seen : seen_) seen.changed |= changed;
+    }
     // Which levels of the chain that changes.
     std::uint32_t show(const std::vector<Weighed>& levels)
     {
@@ -180,28 +202,37 @@ private:
 
     double cost(const std::vector<Weighed>& levels)
     {
-        changed_ |= show(levels);
-        const std::vector<PictureScore> scores = retake_.score(chain_, changed_);
-        changed_ = 0;
-        std::vector<double> changes, unused(scores.size());
-        double flicker = 0.0;
-        for (std::size_t i = 0; i < scores.size(); ++i) {
-            changes.push_back(change_of(scores[i].rmse, plain_scores_[i].rmse));
-            flicker += change_of(scores[i].flicker, plain_scores_[i].flicker);
+        change_to(levels);
+        double sum = 0.0;
+        for (Seen& seen : seen_) {
+            const std::vector<PictureScore> scores = seen.retake.score(chain_, seen.changed);
+            seen.changed = 0;
+            std::vector<double> changes, unused(scores.size());
+            double flicker = 0.0;
+            for (std::size_t i = 0; i < scores.size(); ++i) {
+                changes.push_back(change_of(scores[i].rmse, seen.plain[i].rmse));
+                flicker += change_of(scores[i].flicker, seen.plain[i].flicker);
+            }
+            const bool floors = &seen == &seen_.front();
+            sum += floors ? look_price(changes, unused) + kFlickerWeight * flicker / static_cast<double>(scores.size())
+                          : worst_price(changes, unused);
         }
-        return look_price(changes, unused) + kFlickerWeight * flicker / static_cast<double>(scores.size());
+        return sum;
     }
 
     const PrefilterOptions& options_;
     Prefiltered& chain_;
     const std::array<std::vector<Image>*, 7> parts_;
-    const std::vector<PictureScore> plain_scores_;
-    PictureBench::Retake retake_;
     const FitLevels start_;
     FitLevels plain_;
     std::vector<std::size_t> levels_{};
     std::vector<Weighed> now_, best_;
-    std::uint32_t changed_ = 0;  // levels, since the last score
+    struct Seen {
+        PictureBench::Retake retake;
+        std::vector<PictureScore> plain;
+        std::uint32_t changed;  // levels, since the last score
+    };
+    std::vector<Seen> seen_{};  // the floors, then what was sought
     double cost_ = 0.0;
 };
 
@@ -223,7 +254,17 @@ bool look_again(const PictureBench& of_maps, const PrefilterOptions& options, Pr
     PictureOptions pictures = held_out_pictures(options.surface, floors_seed(of_maps.levels()));
     pictures.threads = options.threads;
     const PictureBench bench(of_maps, pictures);
-    return Look(bench, options, chain).run();
+    Look look(bench, options, chain);
+    bool changed = look.run();
+    std::vector<PictureBench> sought;
+    sought.reserve(kSearches);  // they stay where they are
+    for (std::uint32_t search = 1; search <= kSearches; ++search) {
+        const PictureOptions worst = worst_lights(of_maps, pictures, options, chain, pictures.seed + 7919 * search);
+        if (worst.cases.empty()) break;
+        look.see(sought.emplace_back(of_maps, worst));
+        changed = look.run();
+    }
+    return changed;
 }
 
 }  // namespace petrichor::texproc::detail

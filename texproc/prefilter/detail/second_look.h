@@ -15,7 +15,8 @@ namespace petrichor::texproc::detail {
 /// colour is where it is written (PrefilterOptions::base_colors). All of these numbers move at once, downhill on forms
 /// of the squared errors and of what moves, and stay where the pictures agree. The mean of the pictures is to be
 /// small, and under no light the mean of its views worse than with plain mips, as far as that can be had: a price, no
-/// promise (look_price()).
+/// promise (look_price()). Then the lights under which the chain is worst are sought, anew each time, and it goes on
+/// with these (worst_lights(), worst_price()).
 ///
 ///   of_maps  holds the maps, and their plain mips
 ///   chain    its levels that are fitted are changed
