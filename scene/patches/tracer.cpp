@@ -4,7 +4,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 
+#include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/four.h"
 
 namespace petrichor::scene {
@@ -180,7 +182,7 @@ struct Tracer::Bundle {
 template <bool kAny>
 __attribute__((always_inline)) inline void Tracer::descend(Bundle& bundle) const
 {
-    constexpr std::size_t kFew = 3;  // go down alone
+    static const std::size_t kFew = std::getenv("FEW")?std::atoi(std::getenv("FEW")):3;  // go down alone
     using Number = std::uint8_t;
     struct Waiting {
         std::uint32_t node;
@@ -356,11 +358,8 @@ std::vector<std::uint32_t> Tracer::within(glm::vec3 low, glm::vec3 high) const
 
 bool Tracer::blocked_between(glm::vec3 from, glm::vec3 to, float margin_m, Blocker* last) const
 {
-    const glm::vec3 way = to - from;
-    const float length = std::sqrt(glm::dot(way, way));
-    if (!(length > 2.0f * margin_m)) return false;
-    const glm::vec3 direction = way / length;
-    return blocked({from + direction * margin_m, direction, length - 2.0f * margin_m}, last);
+    const auto ray = ray_between(from, to, margin_m);
+    return ray && blocked(*ray, last);
 }
 
 }  // namespace petrichor::scene
