@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 
 #include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/four.h"
@@ -182,7 +181,7 @@ struct Tracer::Bundle {
 template <bool kAny>
 __attribute__((always_inline)) inline void Tracer::descend(Bundle& bundle) const
 {
-    static const std::size_t kFew = std::getenv("FEW")?std::atoi(std::getenv("FEW")):3;  // go down alone
+    constexpr std::size_t kFew = 1;  // go down alone
     using Number = std::uint8_t;
     struct Waiting {
         std::uint32_t node;

@@ -218,7 +218,12 @@ void connect(Patches& patches, const Tracer& tracer, const PatchOptions& options
         const glm::ivec3 own = cell_in(key);
         const float edge = patches.level_cell_m(level);
         const float lift = 0.12f * edge;
-        std::uint32_t bits = 1u << 13;
+        struct Neighbour {
+            int n;
+            std::array<glm::vec3, kSegments> to;
+            int seen = 0;
+        };
+        std::vector<Neighbour> around;
         for (int n = 0; n < 27; ++n) {
             if (n == 13) continue;
             const glm::ivec3 there = own + glm::ivec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
@@ -232,17 +237,36 @@ void connect(Patches& patches, const Tracer& tracer, const PatchOptions& options
             const glm::vec3 middle =
                 (glm::vec3(there - glm::ivec3(shared::kPatchCellBias >> level)) + 0.5f) * edge -
                 shared::kPatchGridShift * patches.cell_m;
-            std::array<glm::vec3, kSegments> to;
-            points_near(patches, triangles, node, level, middle, lift, to);
-            int seen = 0;
-            Tracer::Blocker last;
-            for (std::size_t k = 0; k < kSegments; ++k) {
-                const SamplePoint p = point_of(patches, triangles, patch, 4 * k + 2);
-                seen += tracer.blocked_between(p.position_m + p.normal * lift, to[k], 1e-4f, &last) ? 0 : 1;
-                if (seen == 2) break;
-            }
-            if (seen >= 2) bits |= 1u << n;
+            around.push_back({n, {}, 0});
+            points_near(patches, triangles, node, level, middle, lift, around.back().to);
         }
+        std::array<glm::vec3, kSegments> from;
+        for (std::size_t k = 0; k < kSegments; ++k) {
+            const SamplePoint p = point_of(patches, triangles, patch, 4 * k + 2);
+            from[k] = p.position_m + p.normal * lift;
+        }
+        // Two segments each, and where not both are free the other two.
+        for (std::size_t first = 0; first < kSegments; first += 2) {
+            std::vector<Ray> rays;
+            std::vector<Neighbour*> of;
+            for (Neighbour& neighbour : around) {
+                if (neighbour.seen >= 2) continue;
+                for (std::size_t k = first; k < first + 2; ++k) {
+                    if (const auto ray = ray_between(from[k], neighbour.to[k])) {
+                        rays.push_back(*ray);
+                        of.push_back(&neighbour);
+                    } else {
+                        ++neighbour.seen;
+                    }
+                }
+            }
+            std::array<bool, 2 * 27> blocked;
+            tracer.blocked(rays, blocked);
+            for (std::size_t k = 0; k < rays.size(); ++k) of[k]->seen += blocked[k] ? 0 : 1;
+        }
+        std::uint32_t bits = 1u << 13;
+        for (const Neighbour& neighbour : around)
+            if (neighbour.seen >= 2) bits |= 1u << neighbour.n;
         patches.connected[patch] = bits;
     });
 }
