@@ -289,9 +289,10 @@ float NearChooser::most_square(std::uint32_t number, bool back, const Surroundin
         const Four beside = larger(least - all(around.spacing), zero);
         nearest2 = sees ? smaller(beside * beside, nearest2) : nearest2;
         const Four square = least * least;
+        const Signs counts = sees & (all(area) >= all(0.99f * kFarFactor) * square);
+        if (none(counts)) continue;
         const Four cosines = smaller(before / least, one) * smaller(highest / least, one);
         const Four factor = smaller(over_pi / square * cosines + all(kMoreFactor), one);
-        const Signs counts = sees & (all(area) >= all(0.99f * kFarFactor) * square);
         sum += counts ? factor * factor : zero;
     }
     float least2 = std::numeric_limits<float>::max(), all_points = 0.0f;
@@ -525,6 +526,7 @@ std::vector<NearChooser::Look> NearChooser::looks(const SamplePoint& p, const Ne
         const Four3 d = along * local.x + across * local.y + up * local.z;
         const Four falls = dot(d, front);
         Signs within = falls < all(0.0f);
+        if (none(within)) continue;
         const Four3 x = from + d * (all(first) / falls);
         for (std::size_t k = 0; k < count; ++k)
             within &= dot(all3(inwards[k]), x - all3(polygon.corner[k])) >= all(0.0f);
