@@ -215,13 +215,7 @@ StandingLinks standing_links(const Patches& patches)
         const std::uint16_t* row = patches.row(i);
         links.above.push_back(static_cast<std::uint16_t>(
             std::count_if(row, row + patches.rays, [&](std::uint16_t link) { return leaves_above(patches, link); })));
-        for (int odd = 0; odd < 2; ++odd) {
-            links.row_first.push_back(static_cast<std::uint32_t>(links.rows.size()));
-            for (int r = odd; r < patches.rays; r += 2)
-                if (row[r] != patches.black() && !leaves_above(patches, row[r])) links.rows.push_back(row[r]);
-        }
     }
-    links.row_first.push_back(static_cast<std::uint32_t>(links.rows.size()));
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> number(patches.count, kNone);
     for (std::uint32_t i = 0; i < patches.count; ++i) {
@@ -436,16 +430,15 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
     const Four shares{share, share, share, share};
     for (int bounce = 0; bounce < input.bounces; ++bounce) {
         over_rows(count, input.threads, [&](std::uint32_t i) {
-            const std::uint32_t* first = &standing.row_first[std::size_t{2} * i];
+            const std::uint16_t* row = patches.row(i);
             // Two sums: an addition need not wait for the one before.
             Four even{}, odd{};
-            std::uint32_t e = first[0], o = first[1];
-            for (; e < first[1] && o < first[2]; ++e, ++o) {
-                even += sent[standing.rows[e]];
-                odd += sent[standing.rows[o]];
+            std::size_t r = 0;
+            for (; r + 1 < rays; r += 2) {
+                even += sent[row[r]];
+                odd += sent[row[r + 1]];
             }
-            for (; e < first[1]; ++e) even += sent[standing.rows[e]];
-            for (; o < first[2]; ++o) odd += sent[standing.rows[o]];
+            if (r < rays) even += sent[row[r]];
             next[i] = reflected[i] + albedo[i] * ((even + odd) * shares);
         });
         sent.swap(next);

@@ -50,10 +50,6 @@ std::vector<std::uint8_t> trace_lamp(const Patches& patches, const Tracer& trace
 struct StandingLinks {
     std::vector<std::uint16_t> above;   ///< a leaf each: its rays that leave the scene above the horizon
     std::vector<glm::vec2> turn;        ///< a leaf each: cosine and sine of how far its rays were turned about the normal
-    /// A leaf's links but for sky above the horizon and black, which bounces have nothing from: of rays of even numbers
-    /// rows[row_first[2 i] .. row_first[2 i + 1]], of odd ones from there to row_first[2 i + 2].
-    std::vector<std::uint32_t> row_first;
-    std::vector<std::uint16_t> rows;
     std::vector<std::uint32_t> wide;    ///< leaves that stand in the open
     std::vector<std::uint32_t> first;   ///< of each and one more: where its entries begin
     std::vector<std::uint32_t> sender;  ///< of an entry: the smaller patch, once for each ray of one of the two that meets the other
