@@ -51,6 +51,17 @@ inline Four square_root(Four x)
     return Four{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 #endif
 }
+/// A bit a lane, the first lane's the lowest.
+inline std::uint32_t bits_of(Signs mask)
+{
+#if defined(__SSE__)
+    return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<Four>(mask)));
+#else
+    std::uint32_t bits = 0;
+    for (int lane = 0; lane < 4; ++lane) bits |= mask[lane] != 0 ? 1u << lane : 0u;
+    return bits;
+#endif
+}
 inline bool none(Signs mask)
 {
     std::uint64_t halves[2];

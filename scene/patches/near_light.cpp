@@ -103,16 +103,20 @@ std::vector<std::uint16_t> rays_taken(const Patches& patches, const Tracer& trac
     std::vector<Shown> shown;
     for (const NearChoice& c : choices) shown.push_back({polygon_of(c.corners), front_of(c.corners)});
     const RowRays row(patches, tracer.triangles(), patch);
+    std::vector<int> which;
     for (int r = 0; r < patches.rays; ++r) {
         const std::size_t draws = patches.may_be_redrawn(patch, r) ? RowRays::kDraws : 1;
-        if (patches.row(patch)[r] >= patches.count || !may_meet(shown, row, r, draws)) continue;
-        const LinkRay link = trace_link(tracer, row, r);
+        if (patches.row(patch)[r] < patches.count && may_meet(shown, row, r, draws)) which.push_back(r);
+    }
+    const std::vector<LinkRay> links = trace_row(tracer, row, which);
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        const LinkRay& link = links[k];
         if (!link.hit.hit() || link.inside) continue;
         const std::uint32_t face = faces.of_triangle[link.hit.triangle];
         const glm::vec3 x = tracer.triangles().point(link.hit.triangle, link.hit.at);
         if (std::any_of(choices.begin(), choices.end(),
                         [&](const NearChoice& c) { return holds(c, face, link.hit.back, x); }))
-            rays.push_back(static_cast<std::uint16_t>(r));
+            rays.push_back(static_cast<std::uint16_t>(which[k]));
     }
     return rays;
 }

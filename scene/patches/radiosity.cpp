@@ -1,9 +1,11 @@
 #include "scene/patches/radiosity.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include "base/parallel.h"
@@ -266,9 +268,22 @@ GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
         std::uint32_t sender;
         float factor;
     };
+    constexpr std::size_t kNoRay = std::numeric_limits<std::size_t>::max();
+    struct Pair {
+        std::uint32_t sender;
+        float kernel;
+        std::size_t ray;
+    };
+    std::vector<SamplePoint> ends;
+    for (const std::uint32_t sender : senders)
+        for (std::size_t k = 0; k < kPairs; ++k) ends.push_back(sample_of(patches, triangles, sender, 4 * k + 3));
     std::vector<std::vector<Entry>> rows(patches.count);
     over_rows(patches.count, threads, [&](std::uint32_t i) {
         const glm::vec3 x = patches.position_m[i], n = patches.normal[i];
+        std::array<SamplePoint, kPairs> starts;
+        for (std::size_t k = 0; k < kPairs; ++k) starts[k] = sample_of(patches, triangles, i, 4 * k + 1);
+        std::vector<Pair> pairs;
+        std::vector<Ray> rays;
         for (std::uint32_t s = 0; s < senders.size(); ++s) {
             const std::uint32_t j = senders[s];
             if (j == i) continue;
@@ -282,11 +297,9 @@ GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
                 (glm::dot(way, n) < -0.7f * std::sqrt(far2) ||
                  glm::dot(way, patches.normal[j]) > 0.7f * std::sqrt(far2)))
                 continue;
-            float sum = 0.0f;
-            Tracer::Blocker last;
             for (std::size_t k = 0; k < kPairs; ++k) {
-                const SamplePoint from = sample_of(patches, triangles, i, 4 * k + 1);
-                const SamplePoint to = sample_of(patches, triangles, j, 4 * k + 3);
+                const SamplePoint& from = starts[k];
+                const SamplePoint& to = ends[s * kPairs + k];
                 const glm::vec3 d = to.position_m - from.position_m;
                 const float r2 = glm::dot(d, d);
                 const float cosines = std::max(glm::dot(d, from.normal), 0.0f) *
@@ -295,14 +308,20 @@ GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
                 const float kernel =
                     cosines / r2 * area / (std::numbers::pi_v<float> * r2 + area);
                 if (kernel < kLeastFactor) continue;
-                if (tracer.blocked_between(
-                        from.position_m + from.normal * ray_lift_m(from.position_m, regular),
-                        to.position_m + to.normal * ray_lift_m(to.position_m, regular), 1e-4f, &last))
-                    continue;
-                sum += kernel;
+                const auto ray = ray_between(from.position_m + from.normal * ray_lift_m(from.position_m, regular),
+                                             to.position_m + to.normal * ray_lift_m(to.position_m, regular));
+                pairs.push_back({s, kernel, ray ? rays.size() : kNoRay});
+                if (ray) rays.push_back(*ray);
             }
+        }
+        const auto blocked = std::make_unique<bool[]>(rays.size());
+        tracer.blocked(rays, {blocked.get(), rays.size()});
+        for (std::size_t first = 0, last = 0; first < pairs.size(); first = last) {
+            float sum = 0.0f;
+            for (; last < pairs.size() && pairs[last].sender == pairs[first].sender; ++last)
+                if (pairs[last].ray == kNoRay || !blocked[pairs[last].ray]) sum += pairs[last].kernel;
             const float factor = sum / static_cast<float>(kPairs);
-            if (factor >= kLeastFactor) rows[i].push_back({s, factor});
+            if (factor >= kLeastFactor) rows[i].push_back({pairs[first].sender, factor});
         }
     });
     glow.first.push_back(0);

@@ -2,299 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cassert>
 #include <cmath>
 
+#include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/four.h"
 
 namespace petrichor::scene {
-namespace {
-
-constexpr int kBins = 16;
-constexpr std::uint32_t kLeaf = 4;  // triangles of a leaf that need no thought
-constexpr std::uint32_t kLargestLeaf =
-    32;  // beyond that a leaf is halved whatever the heuristic says
-constexpr int kDeepest = 96;
-constexpr std::uint32_t kEmpty = 0xffffffffu;
-
-struct Box {
-    glm::vec3 low{std::numeric_limits<float>::max()};
-    glm::vec3 high{std::numeric_limits<float>::lowest()};
-
-    void add(const Box& other)
-    {
-        low = glm::min(low, other.low);
-        high = glm::max(high, other.high);
-    }
-    void add(const glm::vec3& p)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    float half_area() const
-    {
-        const glm::vec3 d = high - low;
-        if (d.x < 0.0f) return 0.0f;
-        return d.x * d.y + d.y * d.z + d.z * d.x;
-    }
-};
-
-// Of a tree of two children a node, as it is built.
-struct Pair {
-    Box box[2];
-    std::uint32_t child[2];  // number of a pair, or of a first triangle in the order
-    std::uint32_t count[2];  // triangles of a leaf; 0: a pair
-};
-
-// Further than rounding in the slab test can miss a triangle that lies in the face of its box.
-Box widened(const Box& box)
-{
-    Box wide = box;
-    for (int k = 0; k < 3; ++k) {
-        const float most = std::max(std::abs(box.low[k]), std::abs(box.high[k]));
-        const float margin = most * 4e-7f + 1e-12f;
-        wide.low[k] -= margin;
-        wide.high[k] += margin;
-    }
-    return wide;
-}
-
-}  // namespace
-
-struct Tracer::Builder {
-    const Triangles& triangles;
-    std::vector<Node>& nodes;
-    std::vector<Packet>& packets;
-    std::vector<std::uint32_t> order;
-    std::vector<Pair> pairs;
-    std::vector<Box> boxes;
-    std::vector<glm::vec3> centres;
-
-    struct Part {
-        std::uint32_t first, count;
-        Box box;
-    };
-
-    Box box_of(std::uint32_t first, std::uint32_t count) const
-    {
-        Box box;
-        for (std::uint32_t i = first; i < first + count; ++i) box.add(boxes[order[i]]);
-        return box;
-    }
-
-    // Where to cut; count of the left part, 0: keep it whole.
-    std::uint32_t cut(const Part& part)
-    {
-        Box range;
-        for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
-            range.add(centres[order[i]]);
-        float best = static_cast<float>(part.count) * part.box.half_area();
-        int best_axis = -1;
-        int best_bin = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const float low = range.low[axis];
-            const float width = range.high[axis] - low;
-            if (!(width > 0.0f)) continue;
-            const float scale = static_cast<float>(kBins) * 0.9999f / width;
-            std::array<Box, kBins> bin_box;
-            std::array<std::uint32_t, kBins> bin_count{};
-            for (std::uint32_t i = part.first; i < part.first + part.count; ++i) {
-                const std::uint32_t t = order[i];
-                const auto b = static_cast<std::size_t>(
-                    std::clamp(static_cast<int>((centres[t][axis] - low) * scale), 0, kBins - 1));
-                bin_box[b].add(boxes[t]);
-                ++bin_count[b];
-            }
-            std::array<float, kBins> right_cost{};
-            Box right;
-            std::uint32_t right_count = 0;
-            for (std::size_t b = kBins - 1; b > 0; --b) {
-                right.add(bin_box[b]);
-                right_count += bin_count[b];
-                right_cost[b] = static_cast<float>(right_count) * right.half_area();
-            }
-            Box left;
-            std::uint32_t left_count = 0;
-            for (std::size_t b = 0; b + 1 < kBins; ++b) {
-                left.add(bin_box[b]);
-                left_count += bin_count[b];
-                if (left_count == 0 || left_count == part.count) continue;
-                const float cost = static_cast<float>(left_count) * left.half_area() +
-                                   right_cost[b + 1] + part.box.half_area();
-                if (cost < best || (part.count > kLargestLeaf && best_axis < 0)) {
-                    best = cost;
-                    best_axis = axis;
-                    best_bin = static_cast<int>(b);
-                }
-            }
-        }
-        if (best_axis < 0) return part.count > kLargestLeaf ? part.count / 2 : 0;
-        const float low = range.low[best_axis];
-        const float scale = static_cast<float>(kBins) * 0.9999f / (range.high[best_axis] - low);
-        const auto begin = order.begin() + part.first;
-        const auto middle = std::stable_partition(begin, begin + part.count, [&](std::uint32_t t) {
-            return std::clamp(static_cast<int>((centres[t][best_axis] - low) * scale), 0,
-                              kBins - 1) <= best_bin;
-        });
-        return static_cast<std::uint32_t>(middle - begin);
-    }
-
-    // The pair that holds two parts. Explicit stack: scenes can be deep.
-    void build()
-    {
-        struct Work {
-            Part part;
-            std::uint32_t node;
-            int side, depth;
-        };
-        const auto all = static_cast<std::uint32_t>(order.size());
-        pairs.push_back({});
-        std::vector<Work> stack;
-        const auto place = [&](const Part& part, std::uint32_t node, int side, int depth) {
-            pairs[node].box[side] = part.box;
-            pairs[node].child[side] = part.first;
-            pairs[node].count[side] = part.count;
-            if (part.count > kLeaf) stack.push_back({part, node, side, depth});
-        };
-        place({0, all, box_of(0, all)}, 0, 0, 0);
-        // The root has one child.
-        pairs[0].box[1] = {};
-        pairs[0].child[1] = kEmpty;
-        pairs[0].count[1] = 0;
-        while (!stack.empty()) {
-            const Work work = stack.back();
-            stack.pop_back();
-            // Degenerate heaps are cut in the middle once the tree is deep.
-            const std::uint32_t left = work.depth > kDeepest / 2 && work.part.count > kLargestLeaf
-                                           ? work.part.count / 2
-                                           : cut(work.part);
-            if (left == 0 || work.depth >= kDeepest - 2) continue;
-            const auto child = static_cast<std::uint32_t>(pairs.size());
-            pairs.push_back({});
-            pairs[work.node].child[work.side] = child;
-            pairs[work.node].count[work.side] = 0;
-            const std::uint32_t first = work.part.first;
-            const std::uint32_t right = work.part.count - left;
-            place({first, left, box_of(first, left)}, child, 0, work.depth + 1);
-            place({first + left, right, box_of(first + left, right)}, child, 1, work.depth + 1);
-        }
-    }
-
-    // What a node of four is made from: a side of a pair.
-    struct Side {
-        std::uint32_t pair;
-        int side;
-    };
-    const Box& box(Side s) const { return pairs[s.pair].box[s.side]; }
-    std::uint32_t child(Side s) const { return pairs[s.pair].child[s.side]; }
-    std::uint32_t count(Side s) const { return pairs[s.pair].count[s.side]; }
-
-    // The largest inner side is opened until there are four.
-    int open(std::uint32_t pair, std::array<Side, 4>& sides) const
-    {
-        int found = 0;
-        const auto add = [&](Side s) {
-            if (child(s) != kEmpty) sides[static_cast<std::size_t>(found++)] = s;
-        };
-        add({pair, 0});
-        add({pair, 1});
-        while (found < 4) {
-            int largest = -1;
-            for (int k = 0; k < found; ++k) {
-                const Side s = sides[static_cast<std::size_t>(k)];
-                if (count(s) > 0) continue;
-                if (largest < 0 ||
-                    box(s).half_area() > box(sides[static_cast<std::size_t>(largest)]).half_area())
-                    largest = k;
-            }
-            if (largest < 0) break;
-            const std::uint32_t inner = child(sides[static_cast<std::size_t>(largest)]);
-            sides[static_cast<std::size_t>(largest)] = {inner, 0};
-            sides[static_cast<std::size_t>(found++)] = {inner, 1};
-        }
-        return found;
-    }
-
-    std::uint32_t pack(std::uint32_t first, std::uint32_t count_of)
-    {
-        const auto packet = static_cast<std::uint32_t>(packets.size());
-        for (std::uint32_t i = 0; i < count_of; ++i) {
-            if (i % 4 == 0) packets.push_back({});
-            const std::uint32_t t = order[first + i];
-            const glm::vec3 a = triangles.corner(t), b = triangles.edge1(t), c = triangles.edge2(t);
-            for (int k = 0; k < 3; ++k) {
-                packets.back().corner[k][i % 4] = a[k];
-                packets.back().edge1[k][i % 4] = b[k];
-                packets.back().edge2[k][i % 4] = c[k];
-            }
-            packets.back().triangle[i % 4] = t;
-        }
-        return packet;
-    }
-
-    // Nodes of four from the pairs.
-    void widen()
-    {
-        struct Work {
-            std::uint32_t pair, node;
-        };
-        nodes.push_back({});
-        std::vector<Work> stack{{0, 0}};
-        while (!stack.empty()) {
-            const Work work = stack.back();
-            stack.pop_back();
-            std::array<Side, 4> sides{};
-            const int found = open(work.pair, sides);
-            for (int lane = 0; lane < 4; ++lane) {
-                // A lane without a child is a point that no ray reaches.
-                Box wide{glm::vec3(std::numeric_limits<float>::max()),
-                         glm::vec3(std::numeric_limits<float>::max())};
-                std::uint32_t to = 0, many = 1;
-                if (lane < found) {
-                    const Side s = sides[static_cast<std::size_t>(lane)];
-                    wide = widened(box(s));
-                    many = (count(s) + 3) / 4;
-                    to = many > 0 ? pack(child(s), count(s))
-                                  : static_cast<std::uint32_t>(nodes.size());
-                    if (many == 0) {
-                        nodes.push_back({});
-                        stack.push_back({child(s), to});
-                    }
-                }
-                Node& node = nodes[work.node];
-                for (int k = 0; k < 3; ++k) {
-                    node.low[k][lane] = wide.low[k];
-                    node.high[k][lane] = wide.high[k];
-                }
-                node.child[lane] = to;
-                node.count[lane] = many;
-            }
-        }
-    }
-};
-
-Tracer::Tracer(const Triangles& triangles) : triangles_(&triangles)
-{
-    const std::uint32_t count = triangles.size();
-    if (count == 0) return;
-    Builder builder{triangles, nodes_, packets_, {}, {}, {}, {}};
-    builder.order.resize(count);
-    builder.boxes.reserve(count);
-    builder.centres.reserve(count);
-    for (std::uint32_t t = 0; t < count; ++t) {
-        builder.order[t] = t;
-        Box box;
-        const glm::vec3 a = triangles.corner(t);
-        box.add(a);
-        box.add(a + triangles.edge1(t));
-        box.add(a + triangles.edge2(t));
-        builder.centres.push_back((box.low + box.high) * 0.5f);
-        builder.boxes.push_back(box);
-    }
-    builder.build();
-    builder.widen();
-}
-
 namespace {
 
 // Whether a packet holds what is nearer than `best`; with kAny the first that is found will do.
@@ -335,33 +49,38 @@ __attribute__((always_inline)) inline bool meet(const Packet& faces, const Trian
 
 }  // namespace
 
-template <bool kAny>
-__attribute__((always_inline)) inline RayHit Tracer::trace(const Ray& ray, Blocker* last) const
-{
-    RayHit best;
-    best.distance_m = ray.longest_m;
-    if (nodes_.empty()) return best;
-    const Four3 origin = all3(ray.origin), direction = all3(ray.direction);
-    if (kAny && last && last->packet < packets_.size()) {
-        if (meet<kAny>(packets_[last->packet], *triangles_, origin, direction, best)) return best;
-    }
-    Four start[3], inverse[3];
+// A ray as boxes and triangles want it.
+struct Tracer::Way {
+    Four3 origin, direction, inverse;
     bool falling[3];
-    for (int k = 0; k < 3; ++k) {
-        // Not exactly along an axis: 0 * infinity would be no number.
-        const float d = ray.direction[k];
-        const float over = 1.0f / (std::abs(d) < 1e-20f ? std::copysign(1e-20f, d) : d);
-        start[k] = all(ray.origin[k]);
-        inverse[k] = all(over);
-        falling[k] = over < 0.0f;
-    }
+};
+
+namespace {
+
+// Not exactly along an axis: 0 * infinity would be no number.
+float inverse_of(float d)
+{
+    return 1.0f / (std::abs(d) < 1e-20f ? std::copysign(1e-20f, d) : d);
+}
+
+// Both may be off by rounding.
+constexpr float kBeyond = 1.000001f;
+
+}  // namespace
+
+// What is nearer than `best`, below a node.
+template <bool kAny>
+__attribute__((always_inline)) inline void Tracer::walk(std::uint32_t from, const Way& way, RayHit& best, Blocker* last) const
+{
     struct Waiting {
         std::uint32_t node;
         float entry;
     };
     std::array<Waiting, 3 * kDeepest + 4> stack;
     std::size_t depth = 0;
-    std::uint32_t at = 0;
+    std::uint32_t at = from;
+    const Four start[3] = {way.origin.x, way.origin.y, way.origin.z};
+    const Four inverse[3] = {way.inverse.x, way.inverse.y, way.inverse.z};
     for (;;) {
         const Node& node = nodes_[at];
         // Where the ray enters each box, and leaves it.
@@ -369,11 +88,10 @@ __attribute__((always_inline)) inline RayHit Tracer::trace(const Ray& ray, Block
         for (int k = 0; k < 3; ++k) {
             const Four low = (four(node.low[k]) - start[k]) * inverse[k];
             const Four high = (four(node.high[k]) - start[k]) * inverse[k];
-            near = larger(falling[k] ? high : low, near);
-            far = smaller(falling[k] ? low : high, far);
+            near = larger(way.falling[k] ? high : low, near);
+            far = smaller(way.falling[k] ? low : high, far);
         }
-        // Both may be off by rounding.
-        const Signs meets = (near <= far * all(1.000001f)) & (near <= all(best.distance_m));
+        const Signs meets = (near <= far * all(kBeyond)) & (near <= all(best.distance_m));
         if (!none(meets)) {
             // Those that are met, nearest first.
             std::uint32_t lane_of[4];
@@ -395,9 +113,9 @@ __attribute__((always_inline)) inline RayHit Tracer::trace(const Ray& ray, Block
                 if (near[lane] > best.distance_m) continue;
                 const std::uint32_t first = node.child[lane];
                 for (std::uint32_t i = first; i < first + node.count[lane]; ++i) {
-                    if (meet<kAny>(packets_[i], *triangles_, origin, direction, best) && kAny) {
+                    if (meet<kAny>(packets_[i], *triangles_, way.origin, way.direction, best) && kAny) {
                         if (last) last->packet = i;
-                        return best;
+                        return;
                     }
                 }
             }
@@ -410,11 +128,28 @@ __attribute__((always_inline)) inline RayHit Tracer::trace(const Ray& ray, Block
             }
         }
         do {
-            if (depth == 0) return best;
+            if (depth == 0) return;
             --depth;
         } while (!(stack[depth].entry <= best.distance_m));
         at = stack[depth].node;
     }
+}
+
+template <bool kAny>
+__attribute__((always_inline)) inline RayHit Tracer::trace(const Ray& ray, Blocker* last) const
+{
+    RayHit best;
+    best.distance_m = ray.longest_m;
+    if (nodes_.empty()) return best;
+    Way way{all3(ray.origin), all3(ray.direction), {}, {}};
+    if (kAny && last && last->packet < packets_.size()) {
+        if (meet<kAny>(packets_[last->packet], *triangles_, way.origin, way.direction, best)) return best;
+    }
+    const glm::vec3 inverse{inverse_of(ray.direction.x), inverse_of(ray.direction.y), inverse_of(ray.direction.z)};
+    way.inverse = all3(inverse);
+    for (int k = 0; k < 3; ++k) way.falling[k] = inverse[k] < 0.0f;
+    walk<kAny>(0, way, best, last);
+    return best;
 }
 
 PETRICHOR_ALSO_AVX RayHit Tracer::nearest(const Ray& ray) const
@@ -425,6 +160,164 @@ PETRICHOR_ALSO_AVX RayHit Tracer::nearest(const Ray& ray) const
 PETRICHOR_ALSO_AVX bool Tracer::blocked(const Ray& ray, Blocker* last) const
 {
     return trace<true>(ray, last).hit();
+}
+
+// Rays that go down the tree together.
+struct Tracer::Bundle {
+    static constexpr std::size_t kMost = 128;
+    struct One {
+        glm::vec3 origin;
+        float distance_m;  // of what it met; less than none: it wants nothing more
+        glm::vec3 inverse;
+    };
+    std::array<One, kMost> rays;
+    std::span<const Ray> asked;
+    std::array<RayHit, kMost> best;
+    glm::vec3 middle;  // of the origins
+};
+
+// A node's children are met by all rays that reached the node, and each goes on with those that met it; what is nearer to
+// the middle of the origins is nearer to most rays.
+template <bool kAny>
+__attribute__((always_inline)) inline void Tracer::descend(Bundle& bundle) const
+{
+    constexpr std::size_t kFew = 1;  // go down alone
+    using Number = std::uint8_t;
+    struct Waiting {
+        std::uint32_t node;
+        std::uint32_t first, count;  // in `numbers`
+        std::uint32_t free;
+    };
+    std::array<Waiting, 3 * kDeepest + 4> stack;
+    std::array<Number, std::size_t{4} * (kDeepest + 1) * Bundle::kMost> numbers;
+    const std::size_t all_of = bundle.asked.size();
+    for (std::size_t r = 0; r < all_of; ++r) numbers[r] = static_cast<Number>(r);
+    std::size_t depth = 0;
+    stack[depth++] = {0, 0, static_cast<std::uint32_t>(all_of), static_cast<std::uint32_t>(all_of)};
+    const Four3 middle = all3(bundle.middle);
+    while (depth > 0) {
+        const Waiting work = stack[--depth];
+        const Node& node = nodes_[work.node];
+        const Number* const own = numbers.data() + work.first;
+        if (work.count <= kFew) {
+            for (std::uint32_t k = 0; k < work.count; ++k) {
+                const Bundle::One& one = bundle.rays[own[k]];
+                if (kAny && one.distance_m < 0.0f) continue;
+                const Ray& ray = bundle.asked[own[k]];
+                Way way{all3(ray.origin), all3(ray.direction), all3(one.inverse), {}};
+                for (int axis = 0; axis < 3; ++axis) way.falling[axis] = one.inverse[axis] < 0.0f;
+                RayHit& best = bundle.best[own[k]];
+                walk<kAny>(work.node, way, best, nullptr);
+                bundle.rays[own[k]].distance_m = kAny && best.hit() ? -1.0f : best.distance_m;
+            }
+            continue;
+        }
+        const Four3 low = four3(node.low), high = four3(node.high);
+        // How many met each child, and which.
+        std::array<std::uint32_t, 4> count{};
+        Number* const to = numbers.data() + work.free;
+        std::array<Number*, 4> end{to, to + work.count, to + 2 * work.count, to + 3 * work.count};
+        for (std::uint32_t k = 0; k < work.count; ++k) {
+            const Number r = own[k];
+            const Bundle::One& one = bundle.rays[r];
+            const Four3 start = all3(one.origin), inverse = all3(one.inverse);
+            const Four x0 = (low.x - start.x) * inverse.x, x1 = (high.x - start.x) * inverse.x;
+            const Four y0 = (low.y - start.y) * inverse.y, y1 = (high.y - start.y) * inverse.y;
+            const Four z0 = (low.z - start.z) * inverse.z, z1 = (high.z - start.z) * inverse.z;
+            const Four longest = all(one.distance_m);
+            const Four near = larger(larger(smaller(x0, x1), smaller(y0, y1)), larger(smaller(z0, z1), all(0.0f)));
+            const Four far = smaller(smaller(larger(x0, x1), larger(y0, y1)), smaller(larger(z0, z1), longest));
+            const std::uint32_t bits = bits_of((near <= far * all(kBeyond)) & (near <= longest));
+            *end[0] = r, end[0] += bits & 1u;
+            *end[1] = r, end[1] += bits >> 1 & 1u;
+            *end[2] = r, end[2] += bits >> 2 & 1u;
+            *end[3] = r, end[3] += bits >> 3;
+        }
+        for (std::size_t lane = 0; lane < 4; ++lane)
+            count[lane] = static_cast<std::uint32_t>(end[lane] - (to + lane * work.count));
+        const Four zero = all(0.0f);
+        const Four3 off{larger(larger(low.x - middle.x, middle.x - high.x), zero), larger(larger(low.y - middle.y, middle.y - high.y), zero),
+                        larger(larger(low.z - middle.z, middle.z - high.z), zero)};
+        const Four distance2 = dot(off, off);
+        std::uint32_t lane_of[4];
+        int found = 0;
+        for (std::uint32_t lane = 0; lane < 4; ++lane) {
+            if (count[lane] == 0) continue;
+            int place = found++;
+            for (; place > 0 && distance2[lane_of[place - 1]] > distance2[lane]; --place)
+                lane_of[place] = lane_of[place - 1];
+            lane_of[place] = lane;
+        }
+        int inner = 0;
+        for (int f = 0; f < found; ++f) {
+            const std::uint32_t lane = lane_of[f];
+            if (node.count[lane] == 0) {
+                lane_of[inner++] = lane;
+                continue;
+            }
+            const Number* const those = to + lane * work.count;
+            for (std::uint32_t k = 0; k < count[lane]; ++k) {
+                Bundle::One& one = bundle.rays[those[k]];
+                if (kAny && one.distance_m < 0.0f) continue;
+                const Ray& ray = bundle.asked[those[k]];
+                RayHit& best = bundle.best[those[k]];
+                const Four3 origin = all3(ray.origin), direction = all3(ray.direction);
+                for (std::uint32_t i = node.child[lane]; i < node.child[lane] + node.count[lane]; ++i) {
+                    if (!meet<kAny>(packets_[i], *triangles_, origin, direction, best)) continue;
+                    one.distance_m = kAny ? -1.0f : best.distance_m;
+                    if (kAny) break;
+                }
+            }
+        }
+        const std::uint32_t free = work.free + 4 * work.count;
+        for (int k = inner - 1; k >= 0; --k) {
+            const std::uint32_t lane = lane_of[k];
+            stack[depth++] = {node.child[lane], work.free + lane * work.count, count[lane], free};
+        }
+    }
+}
+
+PETRICHOR_ALSO_AVX void Tracer::descend_nearest(Bundle& bundle) const
+{
+    descend<false>(bundle);
+}
+
+PETRICHOR_ALSO_AVX void Tracer::descend_any(Bundle& bundle) const
+{
+    descend<true>(bundle);
+}
+
+// In bundles; what is asked of each answer.
+template <class Descend, class Answer>
+void Tracer::in_bundles(std::span<const Ray> rays, const Descend& descend_all, const Answer& answer) const
+{
+    for (std::size_t first = 0; first < rays.size(); first += Bundle::kMost) {
+        Bundle bundle;
+        bundle.asked = rays.subspan(first, std::min(Bundle::kMost, rays.size() - first));
+        bundle.middle = glm::vec3(0.0f);
+        for (std::size_t r = 0; r < bundle.asked.size(); ++r) {
+            const Ray& ray = bundle.asked[r];
+            bundle.rays[r] = {ray.origin, ray.longest_m,
+                              {inverse_of(ray.direction.x), inverse_of(ray.direction.y), inverse_of(ray.direction.z)}};
+            bundle.best[r] = {};
+            bundle.best[r].distance_m = ray.longest_m;
+            bundle.middle += ray.origin / static_cast<float>(bundle.asked.size());
+        }
+        if (!nodes_.empty()) descend_all(bundle);
+        for (std::size_t r = 0; r < bundle.asked.size(); ++r) answer(first + r, bundle.best[r]);
+    }
+}
+
+void Tracer::nearest(std::span<const Ray> rays, std::span<RayHit> hits) const
+{
+    assert(hits.size() >= rays.size());
+    in_bundles(rays, [&](Bundle& b) { descend_nearest(b); }, [&](std::size_t r, const RayHit& hit) { hits[r] = hit; });
+}
+
+void Tracer::blocked(std::span<const Ray> rays, std::span<bool> blocked) const
+{
+    assert(blocked.size() >= rays.size());
+    in_bundles(rays, [&](Bundle& b) { descend_any(b); }, [&](std::size_t r, const RayHit& hit) { blocked[r] = hit.hit(); });
 }
 
 std::vector<std::uint32_t> Tracer::within(glm::vec3 low, glm::vec3 high) const
@@ -464,11 +357,8 @@ std::vector<std::uint32_t> Tracer::within(glm::vec3 low, glm::vec3 high) const
 
 bool Tracer::blocked_between(glm::vec3 from, glm::vec3 to, float margin_m, Blocker* last) const
 {
-    const glm::vec3 way = to - from;
-    const float length = std::sqrt(glm::dot(way, way));
-    if (!(length > 2.0f * margin_m)) return false;
-    const glm::vec3 direction = way / length;
-    return blocked({from + direction * margin_m, direction, length - 2.0f * margin_m}, last);
+    const auto ray = ray_between(from, to, margin_m);
+    return ray && blocked(*ray, last);
 }
 
 }  // namespace petrichor::scene

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "scene/patches/triangles.h"
@@ -48,6 +49,11 @@ public:
     /// Whether anything lies between two points, `margin_m` before each left out.
     bool blocked_between(glm::vec3 from, glm::vec3 to, float margin_m = 1e-4f, Blocker* last = nullptr) const;
 
+    /// What each of many rays meets, as if it were asked alone. Rays that start near each other go down the tree together
+    /// for a fraction of the work.
+    void nearest(std::span<const Ray> rays, std::span<RayHit> hits) const;
+    void blocked(std::span<const Ray> rays, std::span<bool> blocked) const;
+
     /// Triangles whose boxes meet a box, by number.
     std::vector<std::uint32_t> within(glm::vec3 low, glm::vec3 high) const;
 
@@ -65,9 +71,20 @@ private:
         float corner[3][4], edge1[3][4], edge2[3][4];
         std::uint32_t triangle[4];
     };
+    struct Builder;
+    struct Way;
+    struct Bundle;
     template <bool kAny>
     RayHit trace(const Ray& ray, Blocker* last) const;
-    struct Builder;
+    template <bool kAny>
+    void walk(std::uint32_t from, const Way& way, RayHit& best, Blocker* last) const;
+    template <bool kAny>
+    void descend(Bundle& bundle) const;
+    void descend_nearest(Bundle& bundle) const;
+    void descend_any(Bundle& bundle) const;
+    template <class Descend, class Answer>
+    void in_bundles(std::span<const Ray> rays, const Descend& descend_all, const Answer& answer) const;
+    static constexpr int kDeepest = 96;
 
     const Triangles* triangles_ = nullptr;
     std::vector<Node> nodes_;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "scene/patches/detail/sampling.h"
 #include "tests/scene/patch_scenes.h"
@@ -77,6 +79,49 @@ TEST(Tracer, FindsWhatTryingAllTrianglesFinds)
     }
     EXPECT_GT(hits, 1000);
     EXPECT_LE(different, 2);
+}
+
+// As a patch asks: from a small place, towards everywhere, some of them short; more than go down together at once, and few.
+TEST(Tracer, ManyRaysMeetWhatEachMeetsAlone)
+{
+    const Scene scene = heap(3000);
+    const Triangles triangles(scene, {});
+    const Tracer tracer(triangles);
+    int hits = 0, free = 0;
+    for (std::uint64_t place = 0; place < 40; ++place) {
+        const auto v = [&](std::uint64_t k) { return unit_float(mixed(place, 900 + k)); };
+        const glm::vec3 middle(12 * v(0) - 6, 12 * v(1) - 6, 12 * v(2) - 6);
+        const std::size_t many = std::array<std::size_t, 5>{1, 2, 7, 128, 300}[place % 5];
+        std::vector<Ray> rays;
+        for (std::uint64_t i = 0; i < many; ++i) {
+            const auto u = [&](std::uint64_t k) { return unit_float(mixed(place * 1000 + i, k)); };
+            glm::vec3 d = cosine_direction(glm::normalize(glm::vec3(u(3) - 0.5f, u(4) - 0.5f, u(5) - 0.4f)), u(6), u(7));
+            if (i % 17 == 0) d = glm::vec3(i % 2 == 0 ? 1.0f : 0.0f, i % 2 == 0 ? 0.0f : -1.0f, 0.0f);
+            rays.push_back({middle + 0.3f * glm::vec3(u(0), u(1), u(2)), d,
+                            i % 3 == 0 ? 3.0f : std::numeric_limits<float>::max()});
+        }
+        std::vector<RayHit> found(many);
+        std::array<bool, 300> blocked;
+        tracer.nearest(rays, found);
+        tracer.blocked(rays, blocked);
+        for (std::size_t i = 0; i < many; ++i) {
+            const RayHit alone = tracer.nearest(rays[i]);
+            ASSERT_EQ(found[i].triangle, alone.triangle) << place << " " << i;
+            ASSERT_EQ(found[i].distance_m, alone.distance_m) << "to the bit";
+            ASSERT_EQ(found[i].at.b1, alone.at.b1);
+            ASSERT_EQ(found[i].at.b2, alone.at.b2);
+            ASSERT_EQ(found[i].back, alone.back);
+            ASSERT_EQ(blocked[i], alone.hit());
+            (alone.hit() ? hits : free) += 1;
+        }
+    }
+    EXPECT_GT(hits, 1000);
+    EXPECT_GT(free, 300);
+    const Scene nothing = empty_scene();
+    const Triangles none(nothing, {});
+    std::array<RayHit, 2> met;
+    Tracer(none).nearest(std::array<Ray, 2>{}, met);
+    EXPECT_FALSE(met[0].hit() || met[1].hit());
 }
 
 // Rays along an axis through a face that lies in its box's side.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "base/parallel.h"
 #include "scene/patches/detail/sampling.h"
@@ -17,6 +19,15 @@ float ray_lift_m(glm::vec3 position, float regular_cell_m)
     const float far =
         std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
     return std::min(0.002f, 0.0057f * regular_cell_m) + 1e-6f * far;
+}
+
+std::optional<Ray> ray_between(glm::vec3 from, glm::vec3 to, float margin_m)
+{
+    const glm::vec3 way = to - from;
+    const float length = std::sqrt(glm::dot(way, way));
+    if (!(length > 2.0f * margin_m)) return std::nullopt;
+    const glm::vec3 direction = way / length;
+    return Ray{from + direction * margin_m, direction, length - 2.0f * margin_m};
 }
 
 std::uint32_t CellMap::find(shared::PatchKey key) const
@@ -134,6 +145,8 @@ private:
         float inverse_distances = 0.0f;
         int rays = 0;
     };
+    void look_out(std::span<const SamplePoint> points, std::span<const std::uint64_t> hashes,
+                  std::span<Outlook> outlooks) const;
     Outlook look_out(const SamplePoint& point, std::uint64_t hash) const;
     bool holds_content(const Cell& cell) const;
     std::vector<PatchSample> outsiders(const Cell& cell, const RawSample* const* raw, std::size_t count, std::uint64_t hash) const;
@@ -309,35 +322,66 @@ std::uint32_t Grower::add_cell(shared::PatchKey key)
     return found;
 }
 
-// Three rays; where one meets the back of a single-sided face, five more. 1 / distance of the rays is
+// Three rays of each; where one meets the back of a single-sided face, five more. 1 / distance of the rays is
 // added up, each at least a regular cell long.
+void Grower::look_out(std::span<const SamplePoint> points, std::span<const std::uint64_t> hashes,
+                      std::span<Outlook> outlooks) const
+{
+    constexpr int kFirst = 3, kRays = 8;
+    const float regular = cell_edge_m(1);
+    struct Of {
+        std::size_t point;
+        int r;
+    };
+    std::array<Ray, kPatchSamples * kRays> rays;
+    std::array<Of, kPatchSamples * kRays> of;
+    std::array<RayHit, kPatchSamples * kRays> hits;
+    std::array<int, kPatchSamples> backs{}, near{};
+    const auto ask = [&](int first, int last) {
+        std::size_t count = 0;
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            if (first > 0 && backs[p] == 0) continue;
+            const SamplePoint& point = points[p];
+            const std::uint64_t hash = hashes[p];
+            const glm::vec3 origin = point.position_m + point.normal * ray_lift_m(point.position_m, regular);
+            for (int r = first; r < last; ++r) {
+                const float u = (static_cast<float>(r) + unit_float(hash)) / static_cast<float>(kRays);
+                // 0, 3, 6, 1, ...: the first three cover all heights.
+                const float height = fraction(u * 3.0f);
+                const float turn = fraction(kGoldenRatio * static_cast<float>(r) + unit_float(mixed(hash, 5)));
+                rays[count] = {origin, cosine_direction(point.normal, height, turn)};
+                of[count++] = {p, r};
+            }
+        }
+        tracer_.nearest({rays.data(), count}, hits);
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto [p, r] = of[k];
+            Outlook& outlook = outlooks[p];
+            const RayHit& hit = hits[k];
+            ++outlook.rays;
+            if (!hit.hit()) {
+                outlook.sky += rays[k].direction.y > 0.0f ? 1 : 0;
+                continue;
+            }
+            if (r < kFirst && hit.distance_m < regular) ++near[p];
+            if (hit.back && !triangles_.double_sided(hit.triangle)) ++backs[p];
+            outlook.inverse_distances += 1.0f / std::max(hit.distance_m, regular);
+        }
+    };
+    assert(points.size() <= std::size_t{kPatchSamples});
+    std::fill_n(outlooks.begin(), points.size(), Outlook{});
+    ask(0, kFirst);
+    ask(kFirst, kRays);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        outlooks[p].buried = backs[p] >= 2;
+        outlooks[p].outer = near[p] <= 1;
+    }
+}
+
 Grower::Outlook Grower::look_out(const SamplePoint& point, std::uint64_t hash) const
 {
-    const float regular = cell_edge_m(1);
-    const glm::vec3 origin =
-        point.position_m + point.normal * ray_lift_m(point.position_m, regular);
-    int backs = 0, near = 0;
     Outlook outlook;
-    for (int r = 0; r < 8; ++r) {
-        if (r == 3 && backs == 0) break;
-        const float u = (static_cast<float>(r) + unit_float(hash)) / 8.0f;
-        // 0, 3, 6, 1, ...: the first three cover all heights.
-        const float height = fraction(u * 3.0f);
-        const float turn =
-            fraction(kGoldenRatio * static_cast<float>(r) + unit_float(mixed(hash, 5)));
-        const glm::vec3 d = cosine_direction(point.normal, height, turn);
-        const RayHit hit = tracer_.nearest({origin, d});
-        ++outlook.rays;
-        if (!hit.hit()) {
-            outlook.sky += d.y > 0.0f ? 1 : 0;
-            continue;
-        }
-        if (r < 3 && hit.distance_m < regular) ++near;
-        if (hit.back && !triangles_.double_sided(hit.triangle)) ++backs;
-        outlook.inverse_distances += 1.0f / std::max(hit.distance_m, regular);
-    }
-    outlook.buried = backs >= 2;
-    outlook.outer = near <= 1;
+    look_out({&point, 1}, {&hash, 1}, {&outlook, 1});
     return outlook;
 }
 
@@ -414,20 +458,32 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
     const std::size_t wanted = std::min<std::size_t>(count, kPatchSamples);
     const std::size_t rounds = std::min<std::size_t>((count + wanted - 1) / wanted, 3);
     for (std::size_t round = 0; round < rounds; ++round) {
-        for (std::size_t k = 0; k < wanted && cell.points < kPatchSamples; ++k) {
-            const std::size_t first = k * count / wanted, last = (k + 1) * count / wanted;
-            const std::size_t at = first + round * std::max<std::size_t>((last - first) / rounds, 1);
-            if (at >= last) continue;
-            ++tested;
-            const PatchSample& sample = raw[at]->point;
-            const SamplePoint point = sample_point(triangles_, sample);
-            const Outlook outlook = look_out(point, mixed(hash, at));
-            if (outlook.buried) continue;
-            inverse_distances += outlook.inverse_distances;
-            rays += outlook.rays;
-            sky += outlook.sky;
-            outer[static_cast<std::size_t>(cell.points)] = outlook.outer;
-            cell.samples[static_cast<std::size_t>(cell.points++)] = sample;
+        // As many as may be kept are asked together.
+        for (std::size_t k = 0; k < wanted && cell.points < kPatchSamples;) {
+            std::array<std::size_t, kPatchSamples> asked;
+            std::array<SamplePoint, kPatchSamples> points;
+            std::array<std::uint64_t, kPatchSamples> hashes;
+            std::array<Outlook, kPatchSamples> outlooks;
+            std::size_t many = 0;
+            for (const auto most = static_cast<std::size_t>(kPatchSamples - cell.points); k < wanted && many < most; ++k) {
+                const std::size_t first = k * count / wanted, last = (k + 1) * count / wanted;
+                const std::size_t at = first + round * std::max<std::size_t>((last - first) / rounds, 1);
+                if (at >= last) continue;
+                asked[many] = at;
+                points[many] = sample_point(triangles_, raw[at]->point);
+                hashes[many++] = mixed(hash, at);
+            }
+            look_out({points.data(), many}, hashes, outlooks);
+            for (std::size_t i = 0; i < many; ++i) {
+                ++tested;
+                const Outlook& outlook = outlooks[i];
+                if (outlook.buried) continue;
+                inverse_distances += outlook.inverse_distances;
+                rays += outlook.rays;
+                sky += outlook.sky;
+                outer[static_cast<std::size_t>(cell.points)] = outlook.outer;
+                cell.samples[static_cast<std::size_t>(cell.points++)] = raw[asked[i]]->point;
+            }
         }
     }
     if (cell.points == 0) {

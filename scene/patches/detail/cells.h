@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "scene/patches/patches.h"
@@ -59,6 +60,8 @@ GrownCells grow_cells(const Tracer& tracer, const CellPlan& plan, const PatchOpt
 
 /// How far rays start from their surface: 2 mm on the scale of a street, and more than rounding.
 float ray_lift_m(glm::vec3 position, float regular_cell_m);
+/// What Tracer::blocked_between asks; nothing where the points are so close that nothing can lie between.
+std::optional<Ray> ray_between(glm::vec3 from, glm::vec3 to, float margin_m = 1e-4f);
 
 /// Level 0 cell of a point.
 inline glm::ivec3 cell_of(glm::vec3 position, float cell_m)

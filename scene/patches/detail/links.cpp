@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -87,19 +88,29 @@ Ray RowRays::ray(int r, glm::vec3 local, std::size_t draw) const
     return {from.position_m, turned({from.t, from.b}, from.normal, local)};
 }
 
-LinkRay trace_link(const Tracer& tracer, const RowRays& row, int r)
+std::vector<LinkRay> trace_row(const Tracer& tracer, const RowRays& row, std::span<const int> which)
 {
-    LinkRay link;
-    const glm::vec3 local = row.local(r);
-    for (std::size_t draw = 0; draw < RowRays::kDraws; ++draw) {
-        link.draws = draw + 1;
-        link.ray = row.ray(r, local, draw);
-        link.hit = tracer.nearest(link.ray);
-        link.inside =
-            link.hit.hit() && link.hit.back && !tracer.triangles().double_sided(link.hit.triangle);
-        if (!link.inside) break;
+    std::vector<LinkRay> links(which.size());
+    std::vector<Ray> rays(which.size());
+    std::vector<RayHit> hits(which.size());
+    std::vector<std::size_t> asked(which.size()), again;
+    std::iota(asked.begin(), asked.end(), std::size_t{0});
+    for (std::size_t draw = 0; draw < RowRays::kDraws && !asked.empty(); ++draw) {
+        for (std::size_t k = 0; k < asked.size(); ++k) {
+            const int r = which[asked[k]];
+            rays[k] = row.ray(r, row.local(r), draw);
+        }
+        tracer.nearest({rays.data(), asked.size()}, hits);
+        again.clear();
+        for (std::size_t k = 0; k < asked.size(); ++k) {
+            const RayHit& hit = hits[k];
+            const bool inside = hit.hit() && hit.back && !tracer.triangles().double_sided(hit.triangle);
+            links[asked[k]] = {rays[k], hit, inside, draw + 1};
+            if (inside) again.push_back(asked[k]);
+        }
+        asked.swap(again);
     }
-    return link;
+    return links;
 }
 
 void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& options)
@@ -109,6 +120,8 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
     patches.links.resize(std::size_t{patches.count} * static_cast<std::size_t>(patches.rays));
     patches.sky_view.resize(patches.count);
     patches.redrawn.assign(std::size_t{patches.count} * patches.redrawn_row(), 0);
+    std::vector<int> which(static_cast<std::size_t>(patches.rays));
+    std::iota(which.begin(), which.end(), 0);
     over_patches(patches, options, "links", [&](std::uint32_t patch) {
         std::uint16_t* row =
             patches.links.data() + std::size_t{patch} * static_cast<std::size_t>(patches.rays);
@@ -117,8 +130,9 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
         int far = 0;
         int lost = 0;
         std::vector<std::pair<int, std::uint16_t>> replaced;
+        const std::vector<LinkRay> traced = trace_row(tracer, rays, which);
         for (int r = 0; r < patches.rays; ++r) {
-            const LinkRay link = trace_link(tracer, rays, r);
+            const LinkRay& link = traced[static_cast<std::size_t>(r)];
             if (link.draws > 1)
                 patches.redrawn[patch * patches.redrawn_row() + static_cast<std::size_t>(r) / 8] |=
                     static_cast<std::uint8_t>(1u << r % 8);
@@ -204,7 +218,12 @@ void connect(Patches& patches, const Tracer& tracer, const PatchOptions& options
         const glm::ivec3 own = cell_in(key);
         const float edge = patches.level_cell_m(level);
         const float lift = 0.12f * edge;
-        std::uint32_t bits = 1u << 13;
+        struct Neighbour {
+            int n;
+            std::array<glm::vec3, kSegments> to;
+            int seen = 0;
+        };
+        std::vector<Neighbour> around;
         for (int n = 0; n < 27; ++n) {
             if (n == 13) continue;
             const glm::ivec3 there = own + glm::ivec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
@@ -218,17 +237,36 @@ void connect(Patches& patches, const Tracer& tracer, const PatchOptions& options
             const glm::vec3 middle =
                 (glm::vec3(there - glm::ivec3(shared::kPatchCellBias >> level)) + 0.5f) * edge -
                 shared::kPatchGridShift * patches.cell_m;
-            std::array<glm::vec3, kSegments> to;
-            points_near(patches, triangles, node, level, middle, lift, to);
-            int seen = 0;
-            Tracer::Blocker last;
-            for (std::size_t k = 0; k < kSegments; ++k) {
-                const SamplePoint p = point_of(patches, triangles, patch, 4 * k + 2);
-                seen += tracer.blocked_between(p.position_m + p.normal * lift, to[k], 1e-4f, &last) ? 0 : 1;
-                if (seen == 2) break;
-            }
-            if (seen >= 2) bits |= 1u << n;
+            around.push_back({n, {}, 0});
+            points_near(patches, triangles, node, level, middle, lift, around.back().to);
         }
+        std::array<glm::vec3, kSegments> from;
+        for (std::size_t k = 0; k < kSegments; ++k) {
+            const SamplePoint p = point_of(patches, triangles, patch, 4 * k + 2);
+            from[k] = p.position_m + p.normal * lift;
+        }
+        // Two segments each, and where not both are free the other two.
+        for (std::size_t first = 0; first < kSegments; first += 2) {
+            std::vector<Ray> rays;
+            std::vector<Neighbour*> of;
+            for (Neighbour& neighbour : around) {
+                if (neighbour.seen >= 2) continue;
+                for (std::size_t k = first; k < first + 2; ++k) {
+                    if (const auto ray = ray_between(from[k], neighbour.to[k])) {
+                        rays.push_back(*ray);
+                        of.push_back(&neighbour);
+                    } else {
+                        ++neighbour.seen;
+                    }
+                }
+            }
+            std::array<bool, 2 * 27> blocked;
+            tracer.blocked(rays, blocked);
+            for (std::size_t k = 0; k < rays.size(); ++k) of[k]->seen += blocked[k] ? 0 : 1;
+        }
+        std::uint32_t bits = 1u << 13;
+        for (const Neighbour& neighbour : around)
+            if (neighbour.seen >= 2) bits |= 1u << neighbour.n;
         patches.connected[patch] = bits;
     });
 }
@@ -254,13 +292,19 @@ void trace_visibility(Patches& patches, const Tracer& tracer, const PatchOptions
             points[k].position_m +=
                 points[k].normal * ray_lift_m(points[k].position_m, regular);
         }
-        Tracer::Blocker last;
+        std::array<Ray, kBits> rays;
+        std::array<bool, kBits> blocked;
+        std::array<std::size_t, kBits> bit_of;
+        std::size_t count = 0;
         for (std::size_t bit = 0; bit < kBits; ++bit) {
             const SamplePoint& from = points[which[bit] % kPatchSamples];
             if (!(glm::dot(from.normal, directions[bit]) > 0.0f)) continue;
-            if (tracer.blocked({from.position_m, directions[bit]}, &last)) continue;
-            patches.visible[patch][bit >> 5] |= 1u << (bit & 31);
+            rays[count] = {from.position_m, directions[bit]};
+            bit_of[count++] = bit;
         }
+        tracer.blocked({rays.data(), count}, blocked);
+        for (std::size_t k = 0; k < count; ++k)
+            if (!blocked[k]) patches.visible[patch][bit_of[k] >> 5] |= 1u << (bit_of[k] & 31);
     });
 }
 

@@ -3,6 +3,8 @@
 #define PETRICHOR_SCENE_PATCHES_DETAIL_LINKS_H
 
 #include <array>
+#include <span>
+#include <vector>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,7 +37,8 @@ struct LinkRay {
     bool inside = false;  ///< it starts inside a body, whatever was drawn
     std::size_t draws = 0;
 };
-LinkRay trace_link(const Tracer& tracer, const RowRays& row, int r);
+/// Rays of a row by their numbers, together.
+std::vector<LinkRay> trace_row(const Tracer& tracer, const RowRays& row, std::span<const int> which);
 
 /// Where the light of a hit comes from; black where no patch is near.
 std::uint32_t patch_of_hit(const Patches& patches, const Triangles& triangles, const Ray& ray, const RayHit& hit);

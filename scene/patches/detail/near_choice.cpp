@@ -1,6 +1,7 @@
 #include "scene/patches/detail/near_choice.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -20,6 +21,7 @@ constexpr std::size_t kJudged = 24;     // candidates whose light is guessed
 constexpr std::size_t kTried = 16;      // and whose sight is traced
 constexpr std::size_t kSightPoints = 8;
 constexpr std::size_t kSightRays = 24;  // of all of them
+constexpr std::size_t kNoRay = std::numeric_limits<std::size_t>::max();
 constexpr int kSightDirections = 64;
 constexpr std::size_t kFewReceivers = 4;
 constexpr float kStripWidth = 0.05f;    // over its length
@@ -287,9 +289,10 @@ float NearChooser::most_square(std::uint32_t number, bool back, const Surroundin
         const Four beside = larger(least - all(around.spacing), zero);
         nearest2 = sees ? smaller(beside * beside, nearest2) : nearest2;
         const Four square = least * least;
+        const Signs counts = sees & (all(area) >= all(0.99f * kFarFactor) * square);
+        if (none(counts)) continue;
         const Four cosines = smaller(before / least, one) * smaller(highest / least, one);
         const Four factor = smaller(over_pi / square * cosines + all(kMoreFactor), one);
-        const Signs counts = sees & (all(area) >= all(0.99f * kFarFactor) * square);
         sum += counts ? factor * factor : zero;
     }
     float least2 = std::numeric_limits<float>::max(), all_points = 0.0f;
@@ -523,6 +526,7 @@ std::vector<NearChooser::Look> NearChooser::looks(const SamplePoint& p, const Ne
         const Four3 d = along * local.x + across * local.y + up * local.z;
         const Four falls = dot(d, front);
         Signs within = falls < all(0.0f);
+        if (none(within)) continue;
         const Four3 x = from + d * (all(first) / falls);
         for (std::size_t k = 0; k < count; ++k)
             within &= dot(all3(inwards[k]), x - all3(polygon.corner[k])) >= all(0.0f);
@@ -571,22 +575,45 @@ float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon&
     }
     std::stable_sort(order.begin(), order.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
     if (order.size() > kSightPoints) order.resize(kSightPoints);
-    float all = 0.0f, seen = 0.0f;
-    Tracer::Blocker last;
-    for (const auto& [factor, k] : order) {
-        const SamplePoint& p = around.points[k];
+    // Of a look: by which of the points, what it brings, and its way, where it may arrive.
+    struct Asked {
+        std::size_t point;
+        float weight;
+        std::size_t ray = kNoRay;
+        bool open = false;
+    };
+    std::vector<Asked> asked;
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const SamplePoint& p = around.points[order[i].second];
         const glm::vec3 from = p.position_m + p.normal * ray_lift_m(p.position_m, regular);
-        float brought = 0.0f, arrived = 0.0f;
-        for (const Look& look : looks(p, polygon, n, kSightRays / order.size(), mixed(hash, k))) {
-            brought += look.weight;
+        for (const Look& look : looks(p, polygon, n, kSightRays / order.size(), mixed(hash, order[i].second))) {
+            Asked one{i, look.weight};
             const PatchSample place = place_on(triangles_, faces_.faces[candidate.face], candidate.back, look.to);
-            if ((triangles_.flags(place.triangle) & kTriangleMasked) && triangles_.is_hole(place.triangle, place.at))
-                continue;
-            const glm::vec3 way = look.to - p.position_m;
-            const float lift_m = std::min(ray_lift_m(look.to, regular), 0.2f * std::sqrt(glm::dot(way, way)));
-            if (!tracer_.blocked_between(from, look.to + n * lift_m, 1e-4f, &last)) arrived += look.weight;
+            if (!((triangles_.flags(place.triangle) & kTriangleMasked) && triangles_.is_hole(place.triangle, place.at))) {
+                const glm::vec3 way = look.to - p.position_m;
+                const float lift_m = std::min(ray_lift_m(look.to, regular), 0.2f * std::sqrt(glm::dot(way, way)));
+                one.open = true;
+                if (const auto ray = ray_between(from, look.to + n * lift_m)) {
+                    one.ray = rays.size();
+                    rays.push_back(*ray);
+                }
+            }
+            asked.push_back(one);
+        }
+    }
+    std::array<bool, kSightRays> blocked{};
+    assert(rays.size() <= blocked.size());
+    tracer_.blocked(rays, blocked);
+    float all = 0.0f, seen = 0.0f;
+    for (std::size_t i = 0, a = 0; i < order.size(); ++i) {
+        float brought = 0.0f, arrived = 0.0f;
+        for (; a < asked.size() && asked[a].point == i; ++a) {
+            brought += asked[a].weight;
+            if (asked[a].open && (asked[a].ray == kNoRay || !blocked[asked[a].ray])) arrived += asked[a].weight;
         }
         if (!(brought > 0.0f)) continue;
+        const float factor = order[i].first;
         all += factor * factor;
         seen += factor * factor * (arrived / brought);
     }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "scene/patches/patches.h"
 
@@ -20,9 +21,9 @@ struct NearMeets {
     bool inside = false;   ///< it starts inside a body, whatever is drawn
     int draws = 1;         ///< all but the last one inside a body
 };
-/// What ray r of a polygon's meets.
-NearMeets near_meets(const Patches& patches, const Tracer& tracer, const std::array<glm::vec3, 4>& corners, int r,
-                     int rays, std::uint64_t hash);
+/// What rays 0, every, 2 every .. of a polygon's `rays` meet, as many as `met` holds.
+void near_meets(const Patches& patches, const Tracer& tracer, const std::array<glm::vec3, 4>& corners, int every,
+                int rays, std::uint64_t hash, std::span<NearMeets> met);
 
 /// Luminance of what a material sends out by itself, its texture apart.
 float glow_of(const Triangles& triangles, std::uint32_t triangle);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/near_rays.h"
@@ -119,11 +120,8 @@ NearGuess NearSources::guess(NearSourceKey key) const
         const auto corners = corners_at(guess.shown);
         sender = sender_at(corners);
         lost = 0;
-        for (std::size_t k = 0; k < met.size(); ++k) {
-            met[k] = near_meets(patches_, tracer_, corners, static_cast<int>(k) * kGuessEvery, kRays,
-                                hash_of(guess.shown));
-            lost += met[k].inside ? 1 : 0;
-        }
+        near_meets(patches_, tracer_, corners, kGuessEvery, kRays, hash_of(guess.shown), met);
+        for (const NearMeets& m : met) lost += m.inside ? 1 : 0;
         if ((sender && lost < met.size()) || guess.shown.part == NearSourceKey::kWhole) break;
         guess.shown = wider(guess.shown);
     }
@@ -150,28 +148,38 @@ NearGuess NearSources::guess(NearSourceKey key) const
 void NearSources::trace_sky(NearSource& source, std::span<const glm::vec3> points, std::uint64_t hash, bool up) const
 {
     const glm::vec3 n = front_of(source.corners);
-    bool any = up, all = true;
-    Tracer::Blocker last;
-    const auto look = [&](std::size_t bit, bool known) {
-        const glm::vec3& d = sky_directions()[bit];
-        if (!(glm::dot(n, d) > 0.0f)) return;
-        if (!known) {
-            const glm::vec3 x = points[mixed(hash, bit) % points.size()];
-            if (tracer_.blocked({x + n * ray_lift_m(x, patches_.level_cell_m(1)), d}, &last)) {
-                all = false;
-                return;
-            }
-            any = true;
-        }
-        source.visible[bit >> 5] |= 1u << (bit & 31);
-    };
+    const auto show = [&](std::size_t bit) { source.visible[bit >> 5] |= 1u << (bit & 31); };
+    std::array<Ray, 256> rays;
+    std::array<std::size_t, 256> bit_of;
+    std::array<bool, 256> blocked;
     // Every other one of every other row of 16.
     const auto first = [](std::size_t bit) { return (bit & 1u) == 0 && (bit >> 4 & 1u) == 0; };
-    for (std::size_t bit = 0; bit < 256; ++bit)
-        if (first(bit)) look(bit, false);
-    const bool open = all;
-    for (std::size_t bit = 0; bit < 256 && any; ++bit)
-        if (!first(bit)) look(bit, open);
+    // How many of those in front leave, of how many.
+    const auto look = [&](bool at_first) {
+        std::size_t count = 0, left = 0;
+        for (std::size_t bit = 0; bit < rays.size(); ++bit) {
+            const glm::vec3& d = sky_directions()[bit];
+            if (first(bit) != at_first || !(glm::dot(n, d) > 0.0f)) continue;
+            const glm::vec3 x = points[mixed(hash, bit) % points.size()];
+            rays[count] = {x + n * ray_lift_m(x, patches_.level_cell_m(1)), d};
+            bit_of[count++] = bit;
+        }
+        tracer_.blocked({rays.data(), count}, blocked);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (blocked[k]) continue;
+            show(bit_of[k]);
+            ++left;
+        }
+        return std::pair{left, count};
+    };
+    const auto [left, asked] = look(true);
+    if (left == 0 && !up) return;
+    if (left < asked) {
+        look(false);
+        return;
+    }
+    for (std::size_t bit = 0; bit < rays.size(); ++bit)
+        if (!first(bit) && glm::dot(n, sky_directions()[bit]) > 0.0f) show(bit);
 }
 
 NearSource NearSources::traced(NearSourceKey shown) const
@@ -181,11 +189,13 @@ NearSource NearSources::traced(NearSourceKey shown) const
     source.corners = corners_at(shown);
     source.sender = sender_at(source.corners).value();
     std::array<std::uint32_t, NearLinks::kLinks> met{};
+    std::array<NearMeets, NearLinks::kLinks> row{};
+    near_meets(patches_, tracer_, source.corners, 1, kRays, hash, row);
     std::vector<glm::vec3> points;  // where it shows
     std::vector<std::size_t> inside;
     bool up = false, whole = true;
     for (std::size_t r = 0; r < met.size(); ++r) {
-        const NearMeets meets = near_meets(patches_, tracer_, source.corners, static_cast<int>(r), kRays, hash);
+        const NearMeets& meets = row[r];
         source.links[r] = static_cast<std::uint16_t>(meets.id);
         met[r] = meets.triangle;
         if (meets.inside) inside.push_back(r);
