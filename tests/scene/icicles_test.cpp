@@ -19,7 +19,7 @@ std::vector<DripPoint> edge(float height_m = 3.0f, int count = 60)
     std::vector<DripPoint> points;
     for (int i = 0; i < count; ++i) {
         const auto n = static_cast<std::uint32_t>(i);
-        points.push_back({{0.04f * static_cast<float>(i), height_m, 0.0f}, 0.0f, 0.02f + 0.2f * shared::hash_f(n), shared::hash_u(n), {0.0f, 1.0f}});
+        points.push_back({{0.04f * static_cast<float>(i), height_m, 0.0f}, 0.0f, 0.02f + 0.2f * shared::hash_f(n), shared::hash_u(n), 0u, {0.0f, 1.0f}});
     }
     return points;
 }
