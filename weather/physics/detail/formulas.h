@@ -54,7 +54,7 @@ PETRICHOR_INLINE Real wet_bulb_c_of(const Real& t_c, const Real& vapour_pa, cons
 }
 // Temperature of rain where it arrives: drops evaporate into the air that they fall through until
 // they are as cold as its wet bulb (Kinzer & Gunn 1951). Two steps of Newton's on
-// L (q_sat(T) - q) = cp (T_air - T): within 0.03 K from 30 % humidity up.
+// L (q_sat(T) - q) = cp (T_air - T), to 40 C: within 0.04 K from 50 % humidity up, 0.3 K at 30 %.
 template <class Real>
 PETRICHOR_INLINE Real rain_temperature_c_of(const Real& air_c, const Real& q_air,
                                             const Real& pressure_pa)
