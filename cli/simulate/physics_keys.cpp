@@ -71,6 +71,7 @@ const Key kKeys[] = {
     {"exchange.max_richardson", [](PhysicalParams& p) { return &p.exchange.max_richardson; }},
     {"exchange.min_wind_m_s", [](PhysicalParams& p) { return &p.exchange.min_wind_m_s; }},
     {"exchange.max_unstable", [](PhysicalParams& p) { return &p.exchange.max_unstable; }},
+    {"exchange.rain_heat", [](PhysicalParams& p) { return &p.exchange.rain_heat; }},
     {"phase.all_snow_c", [](PhysicalParams& p) { return &p.phase.all_snow_k; },
      weather::kZeroCelsiusK},
     {"phase.all_rain_c", [](PhysicalParams& p) { return &p.phase.all_rain_k; },

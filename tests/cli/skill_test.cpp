@@ -130,8 +130,7 @@ TEST(Skill, CoupledRoadsAreNearerThanTheAir)
     }
 }
 
-// From one measured value alone, too, on all roads; case042, in the rain all night, is as near as the
-// air (0.3432 and 0.3430 K).
+// From one measured value alone, too, on all roads.
 TEST(Skill, RoadsFromOneStartAreNearerThanTheAir)
 {
     NEED_ASSETS(assets);
@@ -142,8 +141,7 @@ TEST(Skill, RoadsFromOneStartAreNearerThanTheAir)
         ++roads;
         for (const BoardRow& air : board_of(assets).rows) {
             if (air.ours.set == set && air.ours.quantity == "air, all ahead") {
-                EXPECT_LT(road.ours.score, air.ours.score + (set == "case042" ? 0.0005 : 0.0))
-                    << set;
+                EXPECT_LT(road.ours.score, air.ours.score) << set;
             }
         }
     }
@@ -165,7 +163,7 @@ TEST(Skill, RadiationInATownIsNearerThanSolweigs)
     EXPECT_LT(score("kronenhuset", "L down"), 20.0);
     EXPECT_LT(score("gustav_adolfs", "K down"), 150.0);
     EXPECT_LT(score("gustav_adolfs", "L down"), 26.0);
-    EXPECT_LT(score("champaign_1998_half_hourly", "wetness"), 0.5) << "kappa";
+    EXPECT_LT(score("champaign_1998_half_hourly", "wetness, 1 - kappa"), 0.5);
     // What is left is for the most part not the model's: a winter's air with a third of the vapour has .70.
     EXPECT_LT(score("kronenhuset", "clear sky over black"), 0.70);
     EXPECT_LT(score("gustav_adolfs", "clear sky over black"), 0.73);

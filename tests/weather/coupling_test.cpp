@@ -238,6 +238,11 @@ TEST(ObservedWater, IsWhatTheMeasuredHoursHaveLeft)
     // Measurements that end before it rains, and one alone, know of none.
     EXPECT_EQ(observed_water(wet, road(), measured_on(dry, 3.0, 4.5).all()).sum(), 0.0);
     EXPECT_EQ(observed_water(wet, road(), measured_on(dry, 3.0, 3.0).all()).sum(), 0.0);
+    // Where it rains at the first measurement, it has rained before.
+    ForcingTable raining = dry;
+    raining[Field::Rain].assign(raining.rows(), 1.0 / 3600.0);
+    EXPECT_EQ(observed_water(raining, road(), measured_on(dry, 3.0, 3.0).all()).sum(),
+              road().surface.film_capacity_kg_m2);
 
     const CellState start = with_water(observed_start(wet, road(), m.all()), after);
     EXPECT_EQ(start.film, after.film);

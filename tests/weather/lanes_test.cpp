@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/weather/made_up.h"
 #include "weather/models/physical/detail/cell_steps.h"
 #include "weather/models/physical/physical_grid.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/step_forcing.h"
 
 namespace petrichor::weather {
 namespace {
@@ -62,6 +66,38 @@ TEST(Lanes, OneCellWithAndWithoutWideRegisters)
         detail::advance_cell_wide(wide, place, &step, 1, k, s);
         ASSERT_EQ(state_hash(wide), state_hash(plain)) << step.begin_us;
     }
+}
+
+// Steps between rows that lie off the hour: means by the trapezoids between rows and ends, and by
+// value_at, which looks for each of them by itself; before the first row and after the last too.
+TEST(StepForcings, RowsOffTheHourAreMeansOfTheirPieces)
+{
+    constexpr std::int64_t kMinute_us = 60 * 1000000LL;
+    ForcingTable table = testing_weather::rough_year(60);
+    for (std::size_t i = 0; i < table.rows(); ++i)
+        table.time_us[i] =
+            table.time_us[0] + static_cast<std::int64_t>(i * 37 + i * i % 29) * kMinute_us;
+    const auto check = [&](std::int64_t begin) {
+        const std::int64_t end = begin + testing_weather::kHourUs;
+        const auto step = detail::make_step_forcing(table, begin, end - begin,
+                                                    detail::SunUse::FlatOpenGround, {});
+        std::vector<std::int64_t> ends{begin};
+        for (const std::int64_t t : table.time_us)
+            if (t > begin && t < end) ends.push_back(t);
+        ends.push_back(end);
+        double sum = 0.0;
+        for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+            sum += 0.5 *
+                   (value_at(table, Field::AirTemp, ends[i]) +
+                    value_at(table, Field::AirTemp, ends[i + 1])) *
+                   static_cast<double>(ends[i + 1] - ends[i]);
+        EXPECT_DOUBLE_EQ(step.air_c.at(0.5) + kZeroCelsiusK, sum / static_cast<double>(end - begin))
+            << begin;
+        EXPECT_EQ(step.air_c.rise, value_at(table, Field::AirTemp, end) -
+                                       value_at(table, Field::AirTemp, begin));
+    };
+    for (int i = -3; i < 42; ++i)
+        check(table.time_us[0] + i * testing_weather::kHourUs + 11 * kMinute_us);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct ExchangeParams {
     double max_richardson = 0.1;  ///< cap in stable air, >= 0
     double min_wind_m_s = 0.1;    ///< wind is raised to this; > 0
     double max_unstable = 50.0;   ///< most that unstable air adds to the exchange, as a factor >= 1
+    double rain_heat = 1.0;       ///< share of the heat that rain brings, 0..1; METRo knows none
 };
 
 /// Exchange coefficient of heat in neutral air: k^2 / (ln(zU/z0) ln(zT/z0h)), z0h = z0/10.

@@ -12,6 +12,19 @@ namespace petrichor::weather::detail {
 
 namespace {
 
+// value_at, where a row at or before the time is known.
+double value_from(const ForcingTable& table, const std::vector<double>& v, std::size_t row,
+                  std::int64_t time)
+{
+    const auto& t = table.time_us;
+    if (v.empty()) return kMissing;
+    if (time < t.front()) return v.front();
+    while (row + 1 < t.size() && t[row + 1] <= time) ++row;
+    if (row + 1 == t.size()) return v.back();
+    const double x = static_cast<double>(time - t[row]) / static_cast<double>(t[row + 1] - t[row]);
+    return v[row] + (v[row + 1] - v[row]) * x;
+}
+
 // Mean of a column over [begin, end], rows `first` .. the row after the end.
 double mean_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin,
                  std::int64_t end)
@@ -22,6 +35,7 @@ double mean_over(const ForcingTable& table, Field field, std::size_t first, std:
     double sum = 0.0;
     std::int64_t at = begin;
     std::size_t i = first;
+    double from = rate ? 0.0 : value_from(table, v, first, begin);
     while (at < end) {
         // Piece from `at` to the next row or the end; beyond the last row values stay (rates: 0).
         while (i + 1 < t.size() && t[i + 1] <= at) ++i;
@@ -36,7 +50,9 @@ double mean_over(const ForcingTable& table, Field field, std::size_t first, std:
                 i + 1 == t.size() && t.size() > 1 && at >= t[i] && at < t[i] + (t[i] - t[i - 1]);
             if (inside || tail || t.size() == 1) sum += v[i] * width;
         } else {
-            sum += 0.5 * (value_at(table, field, at) + value_at(table, field, to)) * width;
+            const double until = value_from(table, v, i, to);
+            sum += 0.5 * (from + until) * width;
+            from = until;
         }
         at = to;
     }
@@ -52,8 +68,8 @@ struct StepRows {
 
 Ramp ramp_by_integral(const ForcingTable& table, Field field, const StepRows& at, double offset)
 {
-    const double a = value_at(table, field, at.begin);
-    const double b = value_at(table, field, at.end);
+    const double a = value_from(table, table[field], at.first, at.begin);
+    const double b = value_from(table, table[field], at.first, at.end);
     const double mean = mean_over(table, field, at.first, at.begin, at.end);
     return {mean - 0.5 * (b - a) + offset, b - a};
 }

@@ -55,7 +55,7 @@ std::vector<SkillRow> meadow_rows(const LongwaveStation& station,
         const double agreed = (both + neither) / count;
         const double chance =
             (ours * seen + (count - ours) * (count - seen)) / (count * count);
-        rows.push_back({station.name, "wetness", "", static_cast<std::size_t>(count),
+        rows.push_back({station.name, "wetness, 1 - kappa", "", static_cast<std::size_t>(count),
                         1.0 - (agreed - chance) / (1.0 - chance), (ours - seen) / count,
                         "1 - kappa"});
     }

@@ -71,6 +71,7 @@ std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalPar
     weather::PhysicalParams p = params;
     p.surface.layers = road.station.layers;
     p.step_s = p.substep_s = kStep_s;
+    p.exchange.rain_heat = 0.0;  // METRo knows none
     const std::int64_t begin_us =
         std::min(road.observed.table.time_us[last], road.roadcast.time_us.front());
     const ForcingTable table = table_of(road, begin_us, p.surface.emissivity);

@@ -6,6 +6,16 @@
 
 namespace petrichor::weather {
 
+// Where it rains at the first measurement it has rained before.
+static RoadWater first_water(const ForcingTable& weather, const PhysicalParams& params,
+                             std::int64_t time_us)
+{
+    RoadWater water;
+    if (weather.has(Field::Rain) && value_at(weather, Field::Rain, time_us) > 0.0)
+        water.film = params.surface.film_capacity_kg_m2;
+    return water;
+}
+
 RoadWater observed_water(const ForcingTable& weather, const PhysicalParams& params,
                          const RoadTemperatures& measured)
 {
@@ -15,8 +25,10 @@ RoadWater observed_water(const ForcingTable& weather, const PhysicalParams& para
     const auto first = static_cast<std::size_t>(std::find_if(c.begin(), c.end(), usable) - c.begin());
     std::size_t last = c.size();
     while (last > first && !usable(c[last - 1])) --last;
-    if (last < first + 2 || measured.time_us.size() < last) return {};
+    if (last == first || measured.time_us.size() < last) return {};
     const std::int64_t begin_us = measured.time_us[first], end_us = measured.time_us[last - 1];
+    const RoadWater before = first_water(weather, params, begin_us);
+    if (last == first + 1) return before;
     const ForcingTable hours = cut_forcing(weather, begin_us, end_us);
     PhysicalParams fine = params;
     fine.step_s = std::min(fine.step_s, kStep_s);
@@ -26,7 +38,8 @@ RoadWater observed_water(const ForcingTable& weather, const PhysicalParams& para
         {measured.time_us.first(first + 1), c.first(first + 1),
          measured.subsurface_c.first(std::min(first + 1, measured.subsurface_c.size())),
          measured.subsurface_depth_m});
-    const CellState end = PhysicalTimeline(hours, fine, start, begin_us).state_at(end_us);
+    const CellState end =
+        PhysicalTimeline(hours, fine, with_water(start, before), begin_us).state_at(end_us);
     return {end.film, end.crack, end.puddle};
 }
 

@@ -11,8 +11,9 @@ struct RoadWater {
     double sum() const { return film + crack + puddle; }
 };
 
-/// What the measured hours have left on the road, which was dry before them: the model goes through
-/// `weather` from the first measured temperature to the last. Liquid alone: what lies there as ice
+/// What the measured hours have left on the road, which was dry before them, or had a full film where
+/// it rains at the first of them: the model goes through `weather` from the first measured
+/// temperature to the last. Liquid alone: what lies there as ice
 /// has been salted or worn off, or not, and no thermometer tells.
 ///   weather  filled, over the measured hours (observed_weather has their rain)
 ///   throws   as observed_start

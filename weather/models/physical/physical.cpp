@@ -72,6 +72,8 @@ void check_params(const PhysicalParams& p)
             "1 or more");
     require(p.exchange.max_richardson >= 0.0, "exchange.max_richardson", p.exchange.max_richardson,
             "0 or more");
+    require(p.exchange.rain_heat >= 0.0 && p.exchange.rain_heat <= 1.0, "exchange.rain_heat",
+            p.exchange.rain_heat, "in 0..1");
     require(p.phase.all_rain_k > p.phase.all_snow_k, "phase.all_rain_k", p.phase.all_rain_k,
             "above phase.all_snow_k");
 }

@@ -98,8 +98,8 @@ private:
     }
     void put(const ExchangeParams& exchange)
     {
-        const auto& [stability, max_richardson, min_wind_m_s, max_unstable] = exchange;
-        add(stability, max_richardson, min_wind_m_s, max_unstable);
+        const auto& [stability, max_richardson, min_wind_m_s, max_unstable, rain_heat] = exchange;
+        add(stability, max_richardson, min_wind_m_s, max_unstable, rain_heat);
     }
     void put(const PhaseParams& phase)
     {
