@@ -412,6 +412,7 @@ void Renderer::set_tracks(std::shared_ptr<const TrackSource> source)
 
 void Renderer::set_environment(const EnvironmentMap& map)
 {
+    if (map.rgb.empty() && !impl_->environment) return;
     impl_->environment = nullptr;
     impl_->sky.drawn_valid = false;
     impl_->environment_arena = std::make_unique<MemoryArena>(impl_->device);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <set>
 
 #include "tests/golden/judge.h"
@@ -31,28 +30,7 @@ gpu::RenderResult render(gpu::Renderer& renderer, const Shot& shot)
     return renderer.render(shot.frame);
 }
 
-// One renderer for all: what a frame leaves behind must not show in the next.
-class Golden : public gpu::GpuTest, public testing::WithParamInterface<Case> {
-protected:
-    void SetUp() override
-    {
-        if (kept_) {
-            renderer = std::move(kept_);
-        } else {
-            GpuTest::SetUp();
-        }
-    }
-    void TearDown() override
-    {
-        GpuTest::TearDown();
-        // Its messages would be reported again.
-        if (!HasFailure()) kept_ = std::move(renderer);
-    }
-    static void TearDownTestSuite() { kept_.reset(); }
-
-private:
-    static inline std::unique_ptr<gpu::Renderer> kept_;
-};
+class Golden : public gpu::GpuTest, public testing::WithParamInterface<Case> {};
 
 TEST_P(Golden, LooksAsAccepted)
 {

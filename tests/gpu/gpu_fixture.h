@@ -1,4 +1,5 @@
-// A renderer with the validation layer on; any message fails the test. Scenes made of a few quads.
+// A renderer with the validation layer on, which the tests of a suite share; any message fails the test. Scenes made of a
+// few quads.
 #ifndef PETRICHOR_TESTS_GPU_GPU_FIXTURE_H
 #define PETRICHOR_TESTS_GPU_GPU_FIXTURE_H
 
@@ -14,20 +15,29 @@
 
 namespace petrichor::gpu {
 
+// One renderer for a suite: a frame is a function of its scene, so what a test leaves behind must not show in the next, and
+// sky, weather's maps and pipelines are not made for each. It is made anew behind a test that failed or took it.
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override
     {
-        if (!testing_device::device_is_there()) return;
-        renderer = std::make_unique<Renderer>(RendererOptions{.device = "", .validation = true});
+        if (!kept_ && !testing_device::device_is_there()) return;
+        renderer = kept_ ? std::move(kept_)
+                         : std::make_unique<Renderer>(RendererOptions{.device = "", .validation = true});
     }
     void TearDown() override
     {
         if (!renderer) return;
         for (const std::string& message : renderer->validation_messages()) ADD_FAILURE() << message;
+        renderer->set_environment({});
+        if (!HasFailure()) kept_ = std::move(renderer);
     }
+    static void TearDownTestSuite() { kept_.reset(); }
 
     std::unique_ptr<Renderer> renderer;
+
+private:
+    static inline std::unique_ptr<Renderer> kept_;
 };
 
 /// A flat rectangle: corner, two edges (front side along cross(u, v)).

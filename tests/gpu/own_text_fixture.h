@@ -1,4 +1,5 @@
-// GLSL of a user's own: a folder for the files, and a cache of its own, so that each test is cold.
+// GLSL of a user's own: a folder for the files, and a cache of its own for what is compiled of them, so that each test is
+// cold. The renderer, made before, keeps our own shaders where all programs do.
 #ifndef PETRICHOR_TESTS_GPU_OWN_TEXT_FIXTURE_H
 #define PETRICHOR_TESTS_GPU_OWN_TEXT_FIXTURE_H
 
@@ -19,8 +20,8 @@ protected:
         folder = std::filesystem::temp_directory_path() /
                  ("petrichor-own-texts-" + std::to_string(getpid()));
         std::filesystem::create_directories(folder);
-        setenv("PETRICHOR_CACHE", (folder / "cache").c_str(), 1);
         GpuTest::SetUp();
+        setenv("PETRICHOR_CACHE", (folder / "cache").c_str(), 1);
     }
     void TearDown() override
     {

@@ -1,5 +1,5 @@
-// The main of tests that run in one process because they share what takes long to make (petrichor_test .. ONCE):
-// ctest is told of a test that was skipped among them by an exit code of its own.
+// The main of a program of tests, which is one test of ctest: ctest is told by an exit code of its own that tests were
+// skipped and none failed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
