@@ -192,7 +192,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const Sun& sun, c
         const int i = fall.direction;
         c.arrays.falls[k++] = fall_constants(maps.sky_views[static_cast<std::size_t>(i)], sky_direction(i), fall, lift_m);
     }
-    if (r.place->present()) r.place->set_falls({c.arrays.falls, falls.size()});
+    if (weather.place) r.place->set_falls({c.arrays.falls, falls.size()});
     c.ripple_bits = std::bit_width(static_cast<unsigned>(r.surface_maps->ripple->width)) - 1;
     c.flow_bits = std::bit_width(static_cast<unsigned>(r.surface_maps->flow->width)) - 1;
     const TrackMap& tracks = r.surface_maps->track_area;

@@ -102,6 +102,7 @@ struct Renderer::Impl {
     {
         LightFacts facts{.direct = by_day.kind, .towards = by_day.direction, .lux = by_day.illuminance};
         std::vector<Light> lights;
+        lights.reserve(scene->lights().size() + scene->glows().size() + frame.extra_lights.size());
         for (const Light& light : scene->lights()) {
             if (&light == sun || (light.kind == LightKind::Directional && frame.sky.analytic_sun)) {
                 continue;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "formulas/light/exposure.h"
+#include "gpu/frame/metering.h"
 
 namespace petrichor::film {
 namespace {
@@ -124,7 +125,7 @@ glm::vec3 metered_white(const std::vector<MeteredJob>& jobs, const std::vector<g
 }
 
 // Meters it, unless that is done or another thread is at it.
-Meter::Metered Meter::metered(gpu::Renderer& renderer, const Job& job, gpu::MeterOf what)
+Meter::Metered Meter::metered(gpu::Renderer& renderer, const Job& job, gpu::MeterOf what, bool places)
 {
     std::promise<gpu::MeterReading> promise;
     Metered result;
@@ -135,7 +136,9 @@ Meter::Metered Meter::metered(gpu::Renderer& renderer, const Job& job, gpu::Mete
         result = metered_.emplace(job, promise.get_future().share()).first->second;
     }
     try {
-        promise.set_value(renderer.meter(frame_at(*sequence_, job).frame, what));
+        gpu::Frame frame = frame_at(*sequence_, job).frame;
+        if (places) frame.place = gpu::no_places();
+        promise.set_value(renderer.meter(frame, what));
     } catch (...) {
         promise.set_exception(std::current_exception());
     }
@@ -153,7 +156,7 @@ ExposureFacts Meter::expose(gpu::Renderer& renderer, const Job& job, gpu::Frame&
     const gpu::MeterOf what = camera.white_balance_auto ? gpu::MeterOf::ExposureAndLight : gpu::MeterOf::Exposure;
     // Its own share first: two threads that waited at once for each other's would never end.
     std::vector<Metered> pending;
-    for (const MeteredJob& one : jobs) pending.push_back(metered(renderer, one.job, what));
+    for (const MeteredJob& one : jobs) pending.push_back(metered(renderer, one.job, what, frame.place != nullptr));
     std::vector<gpu::MeterReading> readings;
     for (const Metered& one : pending) readings.push_back(one.get());
     if (camera.exposure_mode == Exposure::Auto) {

@@ -59,7 +59,8 @@ public:
 
 private:
     using Metered = std::shared_future<gpu::MeterReading>;
-    Metered metered(gpu::Renderer& renderer, const Job& job, gpu::MeterOf what);
+    /// places: pictures of that variant have weather of places.
+    Metered metered(gpu::Renderer& renderer, const Job& job, gpu::MeterOf what, bool places);
 
     const Sequence* sequence_;
     std::mutex mutex_;

@@ -49,6 +49,19 @@ std::vector<std::string> metering_aovs(MeterOf what)
     return {"snow", "base_color", "diffuse_direct", "diffuse_indirect"};
 }
 
+std::shared_ptr<const PlaceWeather> no_places()
+{
+    static const std::shared_ptr<const PlaceWeather> none = [] {
+        auto shape = std::make_shared<PlaceShape>();
+        shape->table.emplace_back(0u);
+        auto place = std::make_shared<PlaceWeather>();
+        place->shape = std::move(shape);
+        place->levels_m = {0.0f};
+        return place;
+    }();
+    return none;
+}
+
 Frame metering_frame(const Frame& frame, MeterOf what)
 {
     Frame small = frame;

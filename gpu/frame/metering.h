@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_FRAME_METERING_H
 #define PETRICHOR_GPU_FRAME_METERING_H
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,10 @@ struct MeterReading {
     std::optional<float> ev100;      ///< of the trimmed mean of the picture's luminance; nothing: it is black
     std::optional<glm::vec3> light;  ///< its colour, linear, of luminance 1; nothing: not asked for, or none
 };
+
+/// Places without any weather of their own: a frame with it shows what it shows without, by the pipelines of frames that have
+/// weather of places. So what is metered, which has none, makes no pipelines that its picture does not need.
+std::shared_ptr<const PlaceWeather> no_places();
 
 /// The small frame that is rendered in place of `frame` to meter it: its longer side at most 96
 /// pixels, one sample in their centres, one map of the sun's shadows, no outputs besides the picture but

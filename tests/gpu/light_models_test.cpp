@@ -401,6 +401,53 @@ TEST_F(LightModels, UnlitGroundsReceiveShadowsByChoice)
     EXPECT_EQ(pixel(renderer->render(frame), 4, 40).g, 0.0f);
 }
 
+// A lamp's shadow darkens them as the sun's: by its share of all that would fall there.
+TEST_F(LightModels, UnlitGroundsReceiveShadowsOfLamps)
+{
+    Material floor = plain_material(glm::vec3(0.5f));
+    floor.lighting_model = "unlit_shadowed";
+    renderer->load(plate_over_floor(plain_material(glm::vec3(0.5f)), floor), {});
+    Frame frame = from_beside();
+    frame.sky.sun_illuminance = 0.0f;
+    Light lamp;
+    lamp.position_m = {0, 20, 0};
+    lamp.intensity = 1e5f;
+    lamp.range_m = 100.0f;
+    frame.extra_lights = {lamp};
+    const auto below_the_plate = [&] {
+        const RenderResult r = renderer->render(frame);
+        EXPECT_NEAR(pixel(r, 4, 32).g * r.exposure, 0.5f, 0.01f);
+        return pixel(r, 32, 32).g * r.exposure;
+    };
+    EXPECT_NEAR(below_the_plate(), 0.15f, 0.01f);
+    frame.extra_lights[0].radius_m = 0.05f;
+    for (const AreaLights area : {AreaLights::Ltc, AreaLights::Nearest}) {
+        frame.settings.area_lights = area;
+        EXPECT_NEAR(below_the_plate(), 0.15f, 0.01f);
+    }
+    frame.extra_lights[0].radius_m = 0.0f;
+    frame.extra_lights[0].shadow_strength = 0.5f;
+    EXPECT_NEAR(below_the_plate(), 0.325f, 0.01f);
+    frame.extra_lights[0].shadow_strength = 1.0f;
+    // As much light from another lamp, which throws none; then from the noon's sun, which throws its own.
+    frame.extra_lights.push_back(frame.extra_lights[0]);
+    frame.extra_lights[1].shadow_strength = 0.0f;
+    EXPECT_NEAR(below_the_plate(), 0.325f, 0.01f);
+    frame.extra_lights.pop_back();
+    frame.sky.sun_illuminance = 1e6f;
+    frame.sky.sun_elevation_rad = 0.6f;
+    EXPECT_NEAR(below_the_plate(), 0.5f, 0.01f) << "what the lamp lacks is nothing beside the sun";
+    frame.sky.sun_illuminance = 0.0f;
+    frame.extra_lights.clear();
+    EXPECT_NEAR(below_the_plate(), 0.5f, 0.01f) << "no light, no shadow";
+    // Of many lamps, whose lists are sifted.
+    frame.extra_lights.assign(200, lamp);
+    for (Light& light : frame.extra_lights) light.shadow_strength = 0.0f;
+    frame.extra_lights[7].shadow_strength = 1.0f;
+    frame.extra_lights[7].intensity *= 199.0f;
+    EXPECT_NEAR(below_the_plate(), 0.325f, 0.01f);
+}
+
 // --- profiles
 
 TEST_F(LightModels, ADistributionAndAPictureShapeALamp)

@@ -2,6 +2,7 @@
 #include "gpu/frame/metering.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/gtc/packing.hpp>
 #include <limits>
 
@@ -324,6 +325,39 @@ TEST_F(MeterTest, OnePipelineForAnyLightShowsTheSame)
             }
         }
     }
+}
+
+// What is metered has the pipelines of a picture with weather of places, and none of that weather.
+TEST_F(MeterTest, NoPlacesShowTheSame)
+{
+    // Half of the floor lies under a roof.
+    renderer->load(scene_of({quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), quad({-4, 2, 4}, {4, 0, 0}, {0, 0, -8})},
+                            {plain_material(glm::vec3(0.5f, 0.3f, 0.2f), 0.6f)}), {});
+    std::vector<std::vector<float>> seen;
+    for (const auto& [film, snow, frost] : {std::array{0.9f, 0.0f, 0.0f}, {0.0f, 0.7f, 0.0f}, {0.5f, 0.0f, 0.8f}}) {
+        Frame frame = lamp_at_night(100.0f);
+        frame.camera = look({0, 1.5f, 5}, {0, 0.5f, -2});
+        frame.sky.analytic_sun = true;
+        frame.sky.sun_elevation_rad = 0.5f;
+        frame.weather.film_albedo = frame.weather.film_smoothness = film;
+        frame.weather.flood_puddles = frame.weather.rain = film;
+        frame.weather.snow_amount = snow;
+        frame.weather.frost = frost;
+        frame = metering_frame(frame, MeterOf::ExposureAndLight);
+        const RenderResult own = renderer->render(frame);
+        frame.place = no_places();
+        const RenderResult beside = renderer->render(frame);
+        for (std::size_t k = 0; k < own.aovs.size(); ++k) {
+            ASSERT_EQ(beside.aovs[k].pixels.size(), own.aovs[k].pixels.size());
+            for (std::size_t i = 0; i < own.aovs[k].pixels.size(); ++i)
+                ASSERT_NEAR(beside.aovs[k].pixels[i], own.aovs[k].pixels[i], 1e-3f * std::abs(own.aovs[k].pixels[i]) + 1e-6f)
+                    << own.aovs[k].name << " at " << i << ", film, snow, frost " << film << ' ' << snow << ' ' << frost;
+        }
+        seen.push_back(own.aovs[3].pixels);
+        EXPECT_EQ(renderer->meter(frame).ev100.has_value(), true);
+    }
+    EXPECT_NE(seen[0], seen[1]) << "there is weather";
+    EXPECT_NE(seen[0], seen[2]);
 }
 
 TEST_F(MeterTest, WhatIsUnlitDoesNotMeterItself)

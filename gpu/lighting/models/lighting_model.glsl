@@ -61,6 +61,7 @@ const uint GATHERS_NOTHING_FIRST = 0u;  // its answer
 const uint GATHERS_DIFFUSE = 1u;
 const uint GATHERS_SPECULAR = 2u;
 const uint GATHERS_REST = 3u;  // what lies over the model alone
+const uint GATHERS_FALLING = 4u;  // not the model: what falls on the surface, lux
 
 // A surface point; weather is on it already.
 struct LitPoint {
@@ -85,6 +86,7 @@ struct LitPoint {
     float hair_shift;  // radians
     WaterFilm film;    // of rain; the pass adds it
     float sunlit;      // 0 in the shadow of the sun .. 1
+    float left;        // by shadows, of the light of sun and lamps that would fall on it; set where unlit_shadowed is seen
     bool point_lamps;  // sizes of lamps are not seen
     bool unshadowed;   // nor their shadows, and the sun's
     ShapedLobes shaped;  // set where the picture has lamps that have a size

@@ -1,5 +1,5 @@
-// The base colour as it is (unlit.glsl), darkened by seven tenths where the sun's shadow falls: for painted
-// grounds and backdrops that things stand on.
+// The base colour as it is (unlit.glsl), darkened by seven tenths where shadows take all light of sun and lamps that
+// would fall on it, and by as much less as they leave: for painted grounds and backdrops that things stand on.
 #include "gpu/lighting/models/lighting_model.glsl"
 
 const float kUnlitShadow = 0.7;
@@ -16,5 +16,5 @@ Reflected unlit_shadowed_surround(LitPoint p, Surroundings s)
 
 vec3 unlit_shadowed_own(LitPoint p)
 {
-    return p.base_color * mix(1.0 - kUnlitShadow, 1.0, p.sunlit) / p.exposure + p.emission;
+    return p.base_color * mix(1.0 - kUnlitShadow, 1.0, p.left) / p.exposure + p.emission;
 }

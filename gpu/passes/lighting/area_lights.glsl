@@ -24,7 +24,7 @@ vec3 skin_lookup(float nl, float curvature)
 // What of sun or a lamp is seen, of materials that receive no shadows all.
 float received(float visible, LitPoint p)
 {
-    return (WAYS & LIGHTS_UNSHADOWED) != 0u && p.unshadowed ? 1.0 : visible;
+    return ((WAYS & LIGHTS_UNSHADOWED) != 0u || USES_unlit_shadowed != 0u) && p.unshadowed ? 1.0 : visible;
 }
 
 // What of a shadow falls on the light that skin carries past its terminator: none. All that is turned away

@@ -116,6 +116,7 @@ LitPoint mirroring_part(LitPoint p)
 
 #include "gpu/passes/lighting/ambient.glsl"
 #include "gpu/passes/lighting/gathered_light.glsl"
+#include "gpu/passes/lighting/left_by_shadows.glsl"
 #include "gpu/passes/lighting/rough_mirror.glsl"
 #include "gpu/passes/lighting/ambient_light.glsl"
 #include "gpu/passes/lighting/ground_mist.glsl"
@@ -289,6 +290,7 @@ void main()
         p.curvature = 0.0;
         p.hair_shift = 0.0;
         p.sunlit = 1.0;
+        p.left = 1.0;
         uint ways = 0u;
         if ((WAYS & (LIGHTS_BY_MATERIAL | LIGHTS_UNSHADOWED)) != 0u)
             ways = uint(texelFetch(material_looks, int(g.material) * MATERIAL_LOOK_TEXELS + 3).w);
@@ -405,6 +407,7 @@ void main()
             gathered = gather_rest(p, direct, sunlight, lamps, there, texel);
             if (composes) direct = model_compose(p, gathered.sum) + gathered.rest + glints;
         }
+        if (USES_unlit_shadowed != 0u) p.left = left_by_shadows(p, view_m, lamps, there, texel);
         // Occlusion maps tell of the sky; on sun and lamps they are a choice.
         const vec3 own = model_own(p);
         const float direct_open = mix(1.0, m.occlusion, frame.occlusion_direct);

@@ -80,6 +80,7 @@ LitPoint filmed_toward(LitPoint p, vec3 to_light)
 
 vec3 model_light(LitPoint p, vec3 to_light)
 {
+    if (USES_unlit_shadowed != 0u && p.gathers == GATHERS_FALLING) return vec3(max(dot(p.normal, to_light), 0.0));
     p = filmed_toward(p, to_light);
     if (GATHERS != 0u && p.gathers != GATHERS_NOTHING_FIRST) return model_gather(p, to_light);
     vec3 radiance = vec3(0.0);

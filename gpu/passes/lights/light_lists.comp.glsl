@@ -55,8 +55,13 @@ void main()
         }
         const ivec2 coarse = tile / LIGHT_COARSE;
         const uint first = uint(coarse.y * frame.coarse_tiles.x + coarse.x) * frame.light_words;
-        for (uint w = 0u; w < frame.light_words; ++w) {
-            uint bits = texelFetch(words, int(first + w)).r;
+        // Most words of a wide scene have nothing here: a loop of its own passes them over.
+        uint next = 0u;
+        do {
+            uint bits;
+            do bits = next < frame.light_words ? texelFetch(words, int(first + next)).r : 0u;
+            while (++next < frame.light_words && bits == 0u);
+            const uint w = next - 1u;
             uint kept = 0u;
             do {
                 const int bit = max(findLSB(bits), 0);
@@ -76,7 +81,7 @@ void main()
                 ++count;
                 lists[list + count] = uvec2(w, kept);
             }
-        }
+        } while (next < frame.light_words);
     }
     lists[list] = uvec2(count, 0u);
 }

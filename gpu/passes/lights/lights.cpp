@@ -105,23 +105,28 @@ namespace {
 
 // Numbers of the lamps that give most light at the eye, brightest first.
 template <typename Wanted>
-std::vector<std::size_t> brightest(const std::vector<const Light*>& lights, int most, const glm::vec3& eye_m, Wanted&& wanted)
+std::vector<std::size_t> brightest(const std::vector<Light>& lights, int most, const glm::vec3& eye_m, Wanted&& wanted)
 {
+    if (most <= 0) return {};
     std::vector<std::pair<float, std::size_t>> ranked;
+    ranked.reserve(lights.size());
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const Light& light = *lights[i];
+        const Light& light = lights[i];
         if (light.kind == LightKind::Directional || !wanted(light)) continue;
-        const float reach = light_radius_m(light);
-        const float strength = light.range_m > 0.0f ? light.intensity : kFaintestLux * reach * reach;
+        float strength = light.intensity;
+        if (light.range_m <= 0.0f) {
+            const float reach = light_radius_m(light);
+            strength = kFaintestLux * reach * reach;
+        }
         const glm::vec3 away = light.position_m - eye_m;
         ranked.emplace_back(strength / std::max(glm::dot(away, away), 1.0f), i);
     }
-    std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    const auto end = ranked.begin() + std::min<std::ptrdiff_t>(most, std::ssize(ranked));
+    std::partial_sort(ranked.begin(), end, ranked.end(), [](const auto& a, const auto& b) {
+        return a.first > b.first || (a.first == b.first && a.second < b.second);
+    });
     std::vector<std::size_t> chosen;
-    for (const auto& [strength, i] : ranked) {
-        if (static_cast<int>(chosen.size()) < most) chosen.push_back(i);
-    }
+    for (auto at = ranked.begin(); at != end; ++at) chosen.push_back(at->second);
     return chosen;
 }
 
@@ -178,8 +183,6 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         return !params.in_view || light.kind == LightKind::Directional ||
                params.in_view(light.position_m, reach_m(light));
     };
-    std::vector<const Light*> ordered;
-    for (const Light& light : lights) ordered.push_back(&light);
     std::vector<int> shadow(lights.size(), -1);  // number of its shadow, by number of the light
     LightTable table;
     const auto number_of = [&](const Light* light) {
@@ -188,35 +191,41 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     // Who owns one does not depend on what is seen: it would come and go. Lamps by vertex have none.
     const auto throws_shadows = [](const Light& light) { return light.shadow_strength > 0.0f && !scene::lit_by_vertex(light); };
     const auto all = [](const Light&) { return true; };
-    for (const std::size_t i : brightest(ordered, params.shadows, params.eye_m, throws_shadows)) {
+    for (const std::size_t i : brightest(lights, params.shadows, params.eye_m, throws_shadows)) {
         if (!is_seen(lights[i])) continue;
         shadow[i] = static_cast<int>(table.shadowed.size());
         table.shadowed.push_back(lights[i]);
     }
-    for (const std::size_t i : brightest(ordered, kBrightestLamps, params.eye_m, all))
+    for (const std::size_t i : brightest(lights, kBrightestLamps, params.eye_m, all))
         table.brightest.push_back(lights[i]);
-    const auto kind_of = [&](const Light* light) {
-        if (light->kind == LightKind::Directional) return 0;
-        if (scene::lit_by_vertex(*light)) return kVertexKind;
-        return (shadow[number_of(light)] >= 0 ? 1 : 3) + (shape_of(*light, area) == Shape::None ? 0 : 1);
+    const auto kind_of = [&](const Light& light, int its_shadow) {
+        if (light.kind == LightKind::Directional) return 0;
+        if (scene::lit_by_vertex(light)) return kVertexKind;
+        return (its_shadow >= 0 ? 1 : 3) + (shape_of(light, area) == Shape::None ? 0 : 1);
     };
-    // Neighbours share the words of a tile's list.
+    // Neighbours share the words of a tile's list. What is not seen is left out before anything is sorted.
+    struct Place {
+        std::uint64_t at;  // its kind, then where it lies in the box of all
+        const Light* light;
+    };
     const Bounds box = cube_of(lights);
-    std::vector<std::uint64_t> place(lights.size());
-    for (const Light* light : ordered) {
-        const int kind = kind_of(light);
-        place[number_of(light)] = static_cast<std::uint64_t>(kind) << 32 | (kind > 0 ? morton(light->position_m, box) : 0u);
+    std::vector<Place> places;
+    for (const Light& light : lights) {
+        table.glows = table.glows || light.glows;
+        if (!is_seen(light)) continue;
+        const int kind = kind_of(light, shadow[number_of(&light)]);
+        places.push_back({static_cast<std::uint64_t>(kind) << 32 | (kind > 0 ? morton(light.position_m, box) : 0u), &light});
     }
-    std::stable_sort(ordered.begin(), ordered.end(), [&](const Light* x, const Light* y) {
-        return place[number_of(x)] < place[number_of(y)];
-    });
-    for (const Light& light : lights) table.glows = table.glows || light.glows;
-    std::erase_if(ordered, [&](const Light* light) { return !is_seen(*light); });
+    std::sort(places.begin(), places.end(),
+              [](const Place& x, const Place& y) { return x.at < y.at || (x.at == y.at && x.light < y.light); });
+    std::vector<const Light*> ordered;
+    ordered.reserve(places.size());
+    for (const Place& place : places) ordered.push_back(place.light);
     const auto first_of = [&](int kind) {
-        const auto first = std::find_if(ordered.begin(), ordered.end(), [&](const Light* light) {
-            return kind_of(light) >= kind;
+        const auto first = std::partition_point(places.begin(), places.end(), [kind](const Place& place) {
+            return place.at < static_cast<std::uint64_t>(kind) << 32;
         });
-        return static_cast<std::uint32_t>(first - ordered.begin());
+        return static_cast<std::uint32_t>(first - places.begin());
     };
     table.count = first_of(kVertexKind);
     table.directional = first_of(1);
@@ -236,6 +245,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     // Rectangles end without a window where that is too faint to be seen at night.
     const float windowed = std::clamp(params.least_lux / kFaintestLux - 1.0f, 0.0f, 1.0f);
     std::vector<glm::vec4> texels;
+    texels.reserve(LIGHT_TEXELS * ordered.size());
     for (const Light* light : ordered) {
         const bool spot = light->kind == LightKind::Spot;
         const bool rectangle = light->kind == LightKind::Rectangle;
