@@ -307,13 +307,13 @@ void main()
             p.second.lobe.f0 = m.specular;
         }
         vec3 mirror_normal = first_normal;
-        if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {
-            p.model = uint(LIGHTING_MODEL_LAYERED);  // with none it is the same
-        }
+        // Where both are in the picture only one is compiled: without layers it is the same.
+        if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) p.model = uint(LIGHTING_MODEL_LAYERED);
         if (LAYERS != 0u && g.model >= LIGHTING_MODEL_COUNT) {
             const int at = int(g.model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS;
             const vec4 first = texelFetch(layers_table, at);
             p.model = uint(first.x);
+            if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) p.model = uint(LIGHTING_MODEL_LAYERED);
             // Snow lies over all of it; standing water over fibres.
             const float bare = WEATHER != 0u ? 1.0 - g.weather.z : 1.0;
             const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
