@@ -21,7 +21,7 @@ using testing_winters::asset;
 // What a cell shows, hour by hour. Water on ground that deep snow hides does not count.
 constexpr std::array<const char*, 8> kNames{"film", "crack",   "puddle", "ice",
                                             "SWE",  "surface", "W",      "U"};
-constexpr std::size_t kIce = 3, kSwe = 4, kSurface = 5;
+constexpr std::size_t kSwe = 4, kSurface = 5;
 constexpr double kHidden_m = 0.05;
 using Shown = std::array<double, kNames.size()>;
 
@@ -177,11 +177,7 @@ TEST(Substeps, MeasuredYearsAreCloseToMinutes)
         all.add(errors_of(file, read_weather(text).table));
     }
     print("together", all);
-    // That scheme ran with rain as warm as the air. Rain as cold as the wet bulb freezes more often, and the error of ice with
-    // it: .0213, a bound looser by 3 % than before, and not yet made good.
-    Shown limits = kTenMinutes;
-    limits[kIce] *= 1.03;
-    expect_below(all, limits);
+    expect_below(all, kTenMinutes);
 }
 
 }  // namespace

@@ -35,7 +35,6 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
     p.icy = skin.icy;
     p.latent_heat = skin.icy ? kLatentSublimation : kLatentVaporisation;
     p.rain_heat = f.rain_kg_m2_s * (exchange.rain_heat * kWaterHeatCapacity);
-    p.rain_c = detail::rain_temperature_c_of(p.air_c, p.q_air, p.pressure);
     p.conductance = skin.conductance_w_m2_k;
     p.below_c = skin.below_temp_k - kZeroCelsiusK;
     return p;

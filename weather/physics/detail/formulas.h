@@ -52,23 +52,6 @@ PETRICHOR_INLINE Real wet_bulb_c_of(const Real& t_c, const Real& vapour_pa, cons
     }
     return (low + high) * 0.5;
 }
-// Temperature of rain where it arrives: drops evaporate into the air that they fall through until
-// they are as cold as its wet bulb (Kinzer & Gunn 1951). Two steps of Newton's on
-// L (q_sat(T) - q) = cp (T_air - T), to 40 C: within 0.04 K from 50 % humidity up, 0.3 K at 30 %.
-template <class Real>
-PETRICHOR_INLINE Real rain_temperature_c_of(const Real& air_c, const Real& q_air,
-                                            const Real& pressure_pa)
-{
-    constexpr double kDry = kAirHeatCapacity / kLatentVaporisation;
-    Real rain_c = air_c;
-    for (int i = 0; i < 2; ++i) {
-        const Real q = specific_humidity_of(saturation_water_pa(rain_c), pressure_pa);
-        const Real inverse = 1.0 / (rain_c + kWaterB);
-        const Real slope = q * (inverse * inverse * (kWaterA * kWaterB)) + kDry;
-        rain_c = rain_c - ((q - q_air) - (air_c - rain_c) * kDry) / slope;
-    }
-    return smaller(rain_c, air_c);
-}
 template <class Real>
 PETRICHOR_INLINE Real snow_fraction_humidity_of(const Real& t_c, const Real& rh_pct)
 {

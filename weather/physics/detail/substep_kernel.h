@@ -92,8 +92,6 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     p.icy = icy;
     p.latent_heat = select(icy, Real(kLatentSublimation), Real(kLatentVaporisation));
     p.rain_heat = rain * (k.exchange.rain_heat * kWaterHeatCapacity);
-    p.rain_c = w.air_c;
-    if (any(rain > zero)) p.rain_c = rain_temperature_c_of(w.air_c, w.q_air, w.pressure);
     p.conductance = conductance;
     p.below_c = below_c;
     // No more can leave than is there.

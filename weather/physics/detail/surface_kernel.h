@@ -65,7 +65,6 @@ struct SurfacePoint {
     Mask icy;
     Real latent_heat;  // J/kg
     Real rain_heat;    // p cw, W m-2 K-1
-    Real rain_c;       // its temperature
     Real conductance;  // to the ground below
     Real below_c;      // its temperature
 };
@@ -240,7 +239,7 @@ PETRICHOR_INLINE PointBalance<Real> balance_with(const SurfacePoint<Real, Mask, 
     f.vapour = vapour.rate;
     f.turbulent = heat * (surface_c - p.air_c) + p.latent_heat * vapour.rate;
     f.balance = (p.absorbed - emitted * surface_k) - f.turbulent -
-                p.conductance * (surface_c - p.below_c) + p.rain_heat * (p.rain_c - surface_c);
+                p.conductance * (surface_c - p.below_c) + p.rain_heat * (p.air_c - surface_c);
     f.turbulent_slope = heat + p.latent_heat * exchange * (vapour.gain * at.dq);
     f.slope =
         at_most_20_k(emitted * 4.0 + f.turbulent_slope + (p.conductance + p.rain_heat), f.balance);
@@ -264,7 +263,7 @@ PETRICHOR_INLINE PointFluxes<Real> fluxes_with(const SurfacePoint<Real, Mask, We
     f.vapour = vapour.rate;
     f.latent = p.latent_heat * f.vapour;
     f.ground = p.conductance * (surface_c - p.below_c);
-    f.rain_heat = p.rain_heat * (p.rain_c - surface_c);
+    f.rain_heat = p.rain_heat * (p.air_c - surface_c);
     f.balance = f.net_radiation - f.sensible - f.latent - f.ground + f.rain_heat;
     f.slope = at_most_20_k(emitted * 4.0 + heat + p.latent_heat * exchange * (vapour.gain * at.dq) +
                                (p.conductance + p.rain_heat),
