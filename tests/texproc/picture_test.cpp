@@ -271,9 +271,15 @@ TEST(PictureRule, PairsInMoreLanesHaveTheSameBits)
             const auto n = direction();
             const float alpha2 = std::pow(10.0f, between(-5.4f, 0.0f)), share = between(0.5f, 1.0f);
             detail::LitPairs::Row plain{}, here{};
-            detail::plain_pair_radiance()(pairs, n, alpha2, share, plain);
-            detail::pair_radiance()(pairs, n, alpha2, share, here);
+            detail::plain_pair_kernel().radiance(pairs, n, alpha2, share, plain);
+            detail::pair_kernel().radiance(pairs, n, alpha2, share, here);
             ASSERT_EQ(std::memcmp(plain.data(), here.data(), sizeof plain), 0);
+            const auto shown = direction();
+            detail::LitPairs::Row other{};
+            for (std::size_t j = 0; j < other.size(); ++j) other[j] = j % 2 ? shown.z : 0.3f;
+            const float distance = detail::plain_pair_kernel().distance(pairs, n, alpha2, share, other);
+            ASSERT_EQ(detail::pair_kernel().distance(pairs, n, alpha2, share, other), distance);
+            EXPECT_GT(distance, 0.0f);
             EXPECT_GT(*std::max_element(plain.begin(), plain.begin() + count), 0.0f);
         }
     }

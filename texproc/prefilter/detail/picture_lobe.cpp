@@ -46,11 +46,35 @@ inline __attribute__((always_inline)) void radiance_in_lanes(const LitPairs& pai
         out[j] = (pairs.fresnel[j] * lobe + pairs.diffuse[j] * base_share) * nl * pairs.exposure[j];
     }
 }
+inline __attribute__((always_inline)) float distance_in_lanes(const LitPairs& pairs, const Direction& n, float alpha2,
+                                                              float base_share, const LitPairs::Row& shown)
+{
+    LitPairs::Row one;
+    radiance_in_lanes(pairs, n, alpha2, base_share, one);
+    for (int i = 0; i < pairs.count; ++i) {
+        const std::size_t j = static_cast<std::size_t>(i);
+        const float off = std::sqrt(std::min(one[j], 1.0f)) - shown[j];
+        one[j] = off * off;
+    }
+    float sum = 0.0f;
+    for (int i = 0; i < pairs.count; ++i) sum += one[static_cast<std::size_t>(i)];
+    return sum;
+}
 void radiance_plain(const LitPairs& pairs, const Direction& n, float alpha2, float base_share, LitPairs::Row& out)
 {
     radiance_in_lanes(pairs, n, alpha2, base_share, out);
 }
+float distance_plain(const LitPairs& pairs, const Direction& n, float alpha2, float base_share,
+                     const LitPairs::Row& shown)
+{
+    return distance_in_lanes(pairs, n, alpha2, base_share, shown);
+}
 #if defined(__x86_64__)
+__attribute__((target("avx2"))) float distance_avx2(const LitPairs& pairs, const Direction& n, float alpha2,
+                                                    float base_share, const LitPairs::Row& shown)
+{
+    return distance_in_lanes(pairs, n, alpha2, base_share, shown);
+}
 __attribute__((target("avx2"))) void radiance_avx2(const LitPairs& pairs, const Direction& n, float alpha2,
                                                    float base_share, LitPairs::Row& out)
 {
@@ -60,17 +84,17 @@ __attribute__((target("avx2"))) void radiance_avx2(const LitPairs& pairs, const 
 
 }  // namespace
 
-PairRadiance plain_pair_radiance()
+PairKernel plain_pair_kernel()
 {
-    return radiance_plain;
+    return {radiance_plain, distance_plain};
 }
 
-PairRadiance pair_radiance()
+PairKernel pair_kernel()
 {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return radiance_avx2;
+    if (__builtin_cpu_supports("avx2")) return {radiance_avx2, distance_avx2};
 #endif
-    return radiance_plain;
+    return plain_pair_kernel();
 }
 
 PictureLobe::PictureLobe(const MapSurface& surface, bool quick, bool metal)
@@ -113,7 +137,7 @@ PictureLobe::PictureLobe(const MapSurface& surface, bool quick, bool metal)
 
 void PictureLobe::radiance(const Direction& n, float alpha2, float base_share, Row& out) const
 {
-    radiance_of_(pairs_, n, alpha2, base_share, out);
+    kernel_.radiance(pairs_, n, alpha2, base_share, out);
 }
 
 // As a display shows it: clipped, in steps that look alike.
@@ -170,13 +194,7 @@ FittedLobe PictureLobe::operator()(const Cells& cells, const Means& means) const
     }
     show(truth);
     const auto cost = [&](float alpha2) {
-        radiance(lobe.normal, alpha2, length, one);
-        show(one);
-        for (std::size_t j = 0; j < one.size(); ++j)
-            one[j] = (one[j] - truth[j]) * (one[j] - truth[j]);
-        float sum = 0.0f;
-        for (int j = 0; j < pairs_.count; ++j) sum += one[static_cast<std::size_t>(j)];
-        return sum;
+        return kernel_.distance(pairs_, lobe.normal, alpha2, length, truth);
     };
     // The plain mip, then a ladder of widths, then closer about the best.
     const float plain = std::max(means.p * means.p * (means.p * means.p), kNarrowest2);

@@ -21,9 +21,16 @@ struct LitPairs {
 /// What the eye of each pair receives from a surface, times the exposure.
 using PairRadiance = void (*)(const LitPairs& pairs, const Direction& n, float alpha2, float base_share,
                               LitPairs::Row& out);
+/// The sum of the squares of what a display shows otherwise than `shown`.
+using PairDistance = float (*)(const LitPairs& pairs, const Direction& n, float alpha2, float base_share,
+                               const LitPairs::Row& shown);
+struct PairKernel {
+    PairRadiance radiance;
+    PairDistance distance;
+};
 /// For plain processors, and for this one: the same operations in more lanes, so the same bits.
-PairRadiance plain_pair_radiance();
-PairRadiance pair_radiance();
+PairKernel plain_pair_kernel();
+PairKernel pair_kernel();
 
 /// The rule `picture` (docs/textures.md, 8): the roughness with which a mip texel looks most like
 /// its footprint where a floor of the material is lit and shown: diffuse and specular light
@@ -47,7 +54,7 @@ private:
     void expose(const MapSurface& surface);
 
     LitPairs pairs_;
-    PairRadiance radiance_of_ = pair_radiance();
+    PairKernel kernel_ = pair_kernel();
 };
 
 }  // namespace petrichor::texproc::detail
