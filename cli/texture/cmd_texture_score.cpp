@@ -116,6 +116,10 @@ void run(Arguments& a)
     if (a.protocol.lobes != 1 && a.protocol.pictures.empty()) {
         throw Error("score: --lobes is for --picture", "Add --picture quick, or leave --lobes out.");
     }
+    if (a.protocol.best_codes && (a.protocol.effort.empty() || a.protocol.bits != 8)) {
+        throw Error("score: --best-codes looks at every code of 8 bits, for --protocol",
+                    "Add --protocol quick --bits 8, or leave --best-codes out.");
+    }
     if (!a.protocol.pictures.empty()) {
         run_score_picture(a.protocol, a.input.reading, a.input.options.threads);
         return;
@@ -220,6 +224,9 @@ void add_texture_score(CLI::App& texture)
     app->add_flag("--best-ellipse", a->scoring.best_ellipse,
                   "also the best elliptic lobe of all, searched for at every texel: what no "
                   "anisotropic output can beat (slow)");
+    app->add_flag("--best-codes", a->protocol.best_codes,
+                  "for --protocol --bits 8: also the best lobes that 8 bits can hold, of all codes of normal and "
+                  "roughness: what no rule can beat (slow)");
     app->add_option("--csv", a->protocol.csv,
                     "for --protocol, --picture: every level or case of every row");
     app->footer(

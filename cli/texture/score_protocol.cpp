@@ -118,6 +118,7 @@ void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptio
     options.bits = request.bits;
     options.threads = threads;
     options.best_ellipse = request.best_ellipse;
+    options.best_codes = request.best_codes;
     options.progress = [](const std::string& what) { std::cerr << "score: " << what << "\n"; };
     const std::vector<texproc::ProtocolRow> rows =
         texproc::run_protocol(materials, variants, options);

@@ -25,6 +25,7 @@ struct ProtocolRequest {
     std::vector<std::uint32_t> fresh;  ///< seeds of sets of materials that no rule was chosen on
     std::vector<std::string> only;     ///< materials whose names hold one of these; empty: all
     bool best_ellipse = false;         ///< rows for the best elliptic lobes there are
+    bool best_codes = false;           ///< rows for the best lobes that files of these bits can hold
     std::string csv;                   ///< every level or case of every row
     int lobes = 1;                     ///< --picture: of a texel, by the rule picture in full
     std::string sheet;                 ///< --picture: a PNG of plain mips, the rules and the truth

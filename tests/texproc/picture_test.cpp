@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <random>
 #include <utility>
 
 #include "texproc/filter/pixel_length.h"
 #include "texproc/material/base_share.h"
+#include "texproc/prefilter/detail/picture_lobe.h"
 #include "texproc/study/fresh_maps.h"
 #include "texproc/study/score.h"
 #include "texproc/study/scored_maps.h"
@@ -239,6 +243,46 @@ TEST(PictureRule, BeatsPlainMipsAndIsSeldomWorse)
     EXPECT_LT(ours / cases, -0.10);
     EXPECT_LT(ours, unreal);
     EXPECT_LE(worse, cases / 10);
+}
+
+// Built for plain processors and for AVX2: no bit may differ.
+TEST(PictureRule, PairsInMoreLanesHaveTheSameBits)
+{
+    detail::LitPairs pairs;
+    std::mt19937 dice(5);
+    const auto between = [&](float low, float high) {
+        return low + (high - low) * static_cast<float>(dice() >> 8) / 16777216.0f;
+    };
+    const auto direction = [&] {
+        return detail::normalized({between(-1.0f, 1.0f), between(-1.0f, 1.0f), between(0.05f, 1.0f)});
+    };
+    for (std::size_t j = 0; j < detail::LitPairs::kMost; ++j) {
+        const auto v = direction(), l = direction();
+        const auto h = detail::normalized({v.x + l.x, v.y + l.y, v.z + l.z});
+        pairs.vx[j] = v.x, pairs.vy[j] = v.y, pairs.vz[j] = v.z;
+        pairs.lx[j] = l.x, pairs.ly[j] = l.y, pairs.lz[j] = l.z;
+        pairs.hx[j] = h.x, pairs.hy[j] = h.y, pairs.hz[j] = h.z;
+        pairs.fresnel[j] = between(0.04f, 1.0f), pairs.diffuse[j] = between(0.0f, 0.1f);
+        pairs.light2[j] = j % 3 ? 0.0f : 0.01f, pairs.exposure[j] = between(0.1f, 9.0f);
+    }
+    for (const int count : {detail::LitPairs::kMost, detail::LitPairs::kMost / 2}) {
+        pairs.count = count;
+        for (int i = 0; i < 500; ++i) {
+            const auto n = direction();
+            const float alpha2 = std::pow(10.0f, between(-5.4f, 0.0f)), share = between(0.5f, 1.0f);
+            detail::LitPairs::Row plain{}, here{};
+            detail::plain_pair_kernel().radiance(pairs, n, alpha2, share, plain);
+            detail::pair_kernel().radiance(pairs, n, alpha2, share, here);
+            ASSERT_EQ(std::memcmp(plain.data(), here.data(), sizeof plain), 0);
+            const auto shown = direction();
+            detail::LitPairs::Row other{};
+            for (std::size_t j = 0; j < other.size(); ++j) other[j] = j % 2 ? shown.z : 0.3f;
+            const float distance = detail::plain_pair_kernel().distance(pairs, n, alpha2, share, other);
+            ASSERT_EQ(detail::pair_kernel().distance(pairs, n, alpha2, share, other), distance);
+            EXPECT_GT(distance, 0.0f);
+            EXPECT_GT(*std::max_element(plain.begin(), plain.begin() + count), 0.0f);
+        }
+    }
 }
 
 TEST(PictureRule, SameBytesForAnyThreads)

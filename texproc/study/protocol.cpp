@@ -82,14 +82,17 @@ void add_share(Score& sum, const Score& one, double share)
         to.spread += share * from.spread;
         to.reached += share * from.reached;
         to.ellipse += share * from.ellipse;
+        to.codes += share * from.codes;
+        to.long_codes += share * from.long_codes;
     }
 }
 
-// The best ellipses as if they were rules.
-void add_ellipses(std::vector<ProtocolRow>& rows)
+using Bounds = std::initializer_list<std::pair<const char*, double LevelScore::*>>;
+
+// What no rule can beat, as if it were one.
+void add_bounds(std::vector<ProtocolRow>& rows, Bounds bounds)
 {
-    for (const auto& [name, error] : {std::pair("best ellipse, found", &LevelScore::reached),
-                                      std::pair("best ellipse, bound", &LevelScore::ellipse)}) {
+    for (const auto& [name, error] : bounds) {
         rows.push_back(rows.back());
         rows.back().variant = name;
         for (LevelScore& l : rows.back().score.levels) l.tested = l.*error;
@@ -167,14 +170,23 @@ std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
                                            .points = options.points,
                                            .seed = static_cast<std::uint32_t>(seed),
                                            .threads = options.threads,
-                                           .best_ellipse = options.best_ellipse};
+                                           .best_ellipse = options.best_ellipse,
+                                           .best_codes = options.best_codes ? options.bits : 0};
                 const std::vector<Score> scores = score_all(
                     maps.normal, maps.roughness, chains_at(maps, fitting, scoring), {}, scoring);
                 for (std::size_t i = 0; i < scores.size(); ++i) {
                     add_share(rows[first + i].score, scores[i], 1.0 / options.seeds);
                 }
             }
-            if (options.best_ellipse && !fitting.empty()) add_ellipses(rows);
+            if (fitting.empty()) continue;
+            if (options.best_ellipse) {
+                add_bounds(rows, {{"best ellipse, found", &LevelScore::reached},
+                                  {"best ellipse, bound", &LevelScore::ellipse}});
+            }
+            if (options.best_codes) {
+                add_bounds(rows, {{"best codes", &LevelScore::long_codes},
+                                  {"best codes of any length", &LevelScore::codes}});
+            }
         }
     }
     return rows;
@@ -327,11 +339,14 @@ std::string to_csv(const std::vector<ProtocolRow>& rows)
     std::string text = "material,rule,light,level,plain,best,error,energy\n";
     char line[96];
     for (const ProtocolRow& row : rows) {
+        const auto cell = [](const std::string& name) {
+            return name.find(',') == std::string::npos ? name : '"' + name + '"';
+        };
         for (const LevelScore& l : row.score.levels) {
             std::snprintf(line, sizeof line, ",%.2f,%d,%.5f,%.5f,%.5f,%.5f\n",
                           static_cast<double>(row.light), l.level, l.plain, l.best, l.tested,
                           l.energy);
-            text += row.material + "," + row.variant + line;
+            text += cell(row.material) + "," + cell(row.variant) + line;
         }
     }
     return text;

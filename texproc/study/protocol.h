@@ -34,6 +34,9 @@ struct ProtocolOptions {
     /// Also rows for the best elliptic lobes (ScoreOptions::best_ellipse): "best ellipse, found" on
     /// other points, and "best ellipse, bound".
     bool best_ellipse = false;
+    /// Also rows for the best lobes that files of these bits can hold (ScoreOptions::best_codes): "best codes"
+    /// of normals as long as rules write them, and "best codes of any length".
+    bool best_codes = false;
     std::function<void(const std::string&)> progress{};  ///< what is being scored
 };
 /// One seed, 24 texels, 512 points.

@@ -10,6 +10,7 @@
 #include "texproc/filter/area.h"
 #include "texproc/prefilter/detail/cells.h"
 #include "texproc/prefilter/detail/input.h"
+#include "texproc/study/detail/codes_oracle.h"
 #include "texproc/study/detail/elliptic_oracle.h"
 #include "texproc/study/detail/yardstick.h"
 
@@ -57,6 +58,7 @@ EllipticLobe stored_lobe(const Prefiltered& chain, std::size_t k, int x, int y,
 
 struct TexelErrors {
     double plain = 0.0, best = 0.0, reached = 0.0, ellipse = 0.0;
+    CodeErrors codes;
     std::vector<Measure> tested;
 };
 
@@ -129,6 +131,14 @@ TexelErrors texel_errors(const MapSurface& surface, const Footprint& columns, co
     for (const EllipticLobe& lobe : lobes) errors.tested.push_back(measure(samples, mass, lobe));
     if (options.best_ellipse)
         add_ellipses(cells, mean, widths, options.points, random, samples, errors);
+    if (options.best_codes > 0) {
+        lobes.push_back(round_lobe(mean, plain2));
+        errors.codes = best_codes(samples, mass, lobes, static_cast<double>(std::sqrt(narrow2)), light2,
+                                  {.bits = options.best_codes,
+                                   .smoothness = input.smoothness,
+                                   .alpha = input.alpha,
+                                   .green_down = input.green_down});
+    }
     return errors;
 }
 
@@ -230,6 +240,8 @@ std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
                 level.best += e.best / n;
                 level.reached += e.reached / n;
                 level.ellipse += e.ellipse / n;
+                level.codes += e.codes.any / n;
+                level.long_codes += e.codes.kept / n;
                 level.tested += e.tested[c].error / n;
                 level.energy += e.tested[c].energy / n;
                 const double d = e.tested[c].error - e.best;

@@ -29,6 +29,8 @@ struct ScoreOptions {
     int max_level = 99;
     /// Also the best elliptic lobe, searched all over: what no anisotropic output can beat. Slow.
     bool best_ellipse = false;
+    /// Above 0: also the best lobe that files of so many bits can hold at all. Slow.
+    int best_codes = 0;
 };
 
 /// Errors of one level, means over its texels.
@@ -42,6 +44,9 @@ struct LevelScore {
     /// With best_ellipse. reached: E of the ellipse that is best on other points; ellipse: of the
     /// one that is best on the very points of the score, below which no lobe can come.
     double reached = 0.0, ellipse = 0.0;
+    /// With best_codes: E of the best codes on the very points of the score, normals of any length, and as
+    /// long as rules write them.
+    double codes = 0.0, long_codes = 0.0;
 };
 
 /// Means over a range of levels, each level of equal weight.

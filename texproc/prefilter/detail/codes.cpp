@@ -42,8 +42,7 @@ constexpr std::size_t kAims = 8;
 // reach where it should be, for the narrowest twice as wide and more.
 constexpr std::array<int, 10> kSteps{-1, 0, 1, 2, 3, 4, 6, 8, 11, 15};
 
-// The nearest storable directions: for every length that keeps z a code, x and y rounded. The shorter a vector, the
-// less it counts where a filter blends it with its neighbours, so no shorter than this.
+// The nearest storable directions: for every length that keeps z a code, x and y rounded.
 std::array<Aim, kAims> nearest(const Direction& normal, const StoredAs& as)
 {
     std::array<Aim, kAims> best;
@@ -60,7 +59,7 @@ std::array<Aim, kAims> nearest(const Direction& normal, const StoredAs& as)
     for (int down = 0; down <= 32; ++down) {
         const float z = 2.0f * (z_code - static_cast<float>(down)) / levels - 1.0f;
         const float length = z / normal.z;
-        if (as.rebuild_z || !(length > 0.75f)) break;
+        if (as.rebuild_z || !(length > kShortestNormal)) break;
         offer({normal.x * length, normal.y * length, z});
     }
     // Neighbours of the rounded codes too: all that is left where z is rebuilt.

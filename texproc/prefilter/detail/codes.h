@@ -26,6 +26,10 @@ Codes rounded(const Direction& normal, float alpha2, const StoredAs& as);
 Direction read_normal(const Codes& codes, const StoredAs& as);
 float read_alpha2(const Codes& codes, const StoredAs& as);
 
+/// No normal is written shorter: the shorter a vector, the less it counts where a filter blends it with
+/// its neighbours.
+inline constexpr float kShortestNormal = 0.75f;
+
 /// True where rounding to these bits moves the lobe by a visible part of its width.
 bool coarse_codes(float lit_alpha2, const StoredAs& as);
 

@@ -40,7 +40,18 @@ void show(const Levels& plain, const PrefilterOptions& options, int places, cons
     const glm::vec2 tap = footprint.along / (size * static_cast<float>(view.taps));
     view.step_u = tap.x, view.step_v = tap.y;
     constexpr int kCount = kSamples * kSamples;
+    // The texels of a large map come from afar: those of the next moment are asked for before this one is lit.
+    std::array<std::array<std::size_t, kCount>, 2> texels;
     std::array<float, kCount> nx, ny, nz, p;
+    const auto lit = [&](std::size_t i) {
+        for (std::size_t k = 0; k < kCount; ++k) {
+            const Texel t = base.at(texels[i % 2][k]);
+            nx[k] = t.n.x, ny[k] = t.n.y, nz[k] = t.n.z;
+            p[k] = perceptual(t.stored, options);
+        }
+        chain_fit_kernel().mean_light(view.lights, nx.data(), ny.data(), nz.data(), p.data(), kCount,
+                                      light + i * kFitLights);
+    };
     for (int place = 0; place < places; ++place) {
         glm::vec2 at(dice(0.0f, size.x), dice(0.0f, size.y));
         const float angle = dice(0.0f, kFitTurn), far = dice(0.3f, 1.0f);
@@ -56,15 +67,14 @@ void show(const Levels& plain, const PrefilterOptions& options, int places, cons
                 const float b =
                     (static_cast<float>(s / kSamples) + dice(0.0f, 1.0f)) / kSamples - 0.5f;
                 const glm::vec2 q = (at + a * footprint.across + b * footprint.along) / size;
-                const Texel t = base.nearest(static_cast<double>(q.x), static_cast<double>(q.y));
-                const std::size_t k = static_cast<std::size_t>(s);
-                nx[k] = t.n.x, ny[k] = t.n.y, nz[k] = t.n.z;
-                p[k] = perceptual(t.stored, options);
+                std::size_t& texel = texels[i % 2][static_cast<std::size_t>(s)];
+                texel = base.nearest_index(static_cast<double>(q.x), static_cast<double>(q.y));
+                base.will_read(texel);
             }
-            chain_fit_kernel().mean_light(view.lights, nx.data(), ny.data(), nz.data(), p.data(),
-                                          kCount, light + i * kFitLights);
+            if (i > 0) lit(i - 1);
         }
     }
+    lit(static_cast<std::size_t>(places) * kFitFrames - 1);
 }
 
 // Exposures of a picture, and what it shows then.

@@ -89,14 +89,20 @@ struct Level {
         const Texel t = at(i);
         return {t.n, t.stored, 0.5f};
     }
-    Texel nearest(double u, double v) const
+    std::size_t nearest_index(double u, double v) const
     {
         const auto place = [](double x, int n) {
             const int i = static_cast<int>((x - std::floor(x)) * n);
             return std::min(i, n - 1);
         };
-        return at(static_cast<std::size_t>(place(v, height)) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(place(u, width)));
+        return static_cast<std::size_t>(place(v, height)) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(place(u, width));
+    }
+    Texel nearest(double u, double v) const { return at(nearest_index(u, v)); }
+    // A hint that this texel will be read soon.
+    void will_read(std::size_t i) const
+    {
+        __builtin_prefetch(small.empty() ? static_cast<const void*>(&texels[i]) : static_cast<const void*>(&small[i]));
     }
     // Bilinear, wrapped; added with a weight.
     void add_to(Texel& sum, double u, double v, float weight) const

@@ -31,11 +31,75 @@ constexpr Light kLight[] = {
 // Exposure of a picture from its pixels: the middle is shown as middle grey, few are white.
 constexpr float kMiddle = 0.18f, kWhite = 0.9f;
 
+// Inlined into either of the two below, so that its loop is of their lanes.
+inline __attribute__((always_inline)) void radiance_in_lanes(const LitPairs& pairs, const Direction& n, float alpha2,
+                                                             float base_share, LitPairs::Row& out)
+{
+    for (int i = 0; i < pairs.count; ++i) {
+        const std::size_t j = static_cast<std::size_t>(i);
+        const float nl = std::max(n.x * pairs.lx[j] + n.y * pairs.ly[j] + n.z * pairs.lz[j], 0.0f);
+        const float nv = std::max(std::abs(n.x * pairs.vx[j] + n.y * pairs.vy[j] + n.z * pairs.vz[j]), 1e-4f);
+        const float nh =
+            std::min(std::max(n.x * pairs.hx[j] + n.y * pairs.hy[j] + n.z * pairs.hz[j], 0.0f), 1.0f);
+        const float alpha = std::sqrt(alpha2 + pairs.light2[j]);
+        const float lobe = shared::ggx_distribution(nh, alpha) * shared::ggx_visibility(nl, nv, alpha);
+        out[j] = (pairs.fresnel[j] * lobe + pairs.diffuse[j] * base_share) * nl * pairs.exposure[j];
+    }
+}
+inline __attribute__((always_inline)) float distance_in_lanes(const LitPairs& pairs, const Direction& n, float alpha2,
+                                                              float base_share, const LitPairs::Row& shown)
+{
+    LitPairs::Row one;
+    radiance_in_lanes(pairs, n, alpha2, base_share, one);
+    for (int i = 0; i < pairs.count; ++i) {
+        const std::size_t j = static_cast<std::size_t>(i);
+        const float off = std::sqrt(std::min(one[j], 1.0f)) - shown[j];
+        one[j] = off * off;
+    }
+    float sum = 0.0f;
+    for (int i = 0; i < pairs.count; ++i) sum += one[static_cast<std::size_t>(i)];
+    return sum;
+}
+void radiance_plain(const LitPairs& pairs, const Direction& n, float alpha2, float base_share, LitPairs::Row& out)
+{
+    radiance_in_lanes(pairs, n, alpha2, base_share, out);
+}
+float distance_plain(const LitPairs& pairs, const Direction& n, float alpha2, float base_share,
+                     const LitPairs::Row& shown)
+{
+    return distance_in_lanes(pairs, n, alpha2, base_share, shown);
+}
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) float distance_avx2(const LitPairs& pairs, const Direction& n, float alpha2,
+                                                    float base_share, const LitPairs::Row& shown)
+{
+    return distance_in_lanes(pairs, n, alpha2, base_share, shown);
+}
+__attribute__((target("avx2"))) void radiance_avx2(const LitPairs& pairs, const Direction& n, float alpha2,
+                                                   float base_share, LitPairs::Row& out)
+{
+    radiance_in_lanes(pairs, n, alpha2, base_share, out);
+}
+#endif
+
 }  // namespace
 
-PictureLobe::PictureLobe(const MapSurface& surface, bool quick, bool metal)
-    : pairs_(quick ? kMost / 2 : kMost)
+PairKernel plain_pair_kernel()
 {
+    return {radiance_plain, distance_plain};
+}
+
+PairKernel pair_kernel()
+{
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) return {radiance_avx2, distance_avx2};
+#endif
+    return plain_pair_kernel();
+}
+
+PictureLobe::PictureLobe(const MapSurface& surface, bool quick, bool metal)
+{
+    pairs_.count = quick ? LitPairs::kMost / 2 : LitPairs::kMost;
     const float f0 = metal ? kMetalF0 : kPaintF0, albedo = metal ? 0.0f : kAlbedo;
     // Each pair is turned by the golden angle, so that no direction of the map is preferred.
     const double turn_cos = -0.7373688780783197, turn_sin = 0.6754902942615238;
@@ -54,14 +118,14 @@ PictureLobe::PictureLobe(const MapSurface& surface, bool quick, bool metal)
                 turned(static_cast<double>(light.right), static_cast<double>(light.ahead),
                        static_cast<double>(light.up));
             const Direction h = normalized({v.x + l.x, v.y + l.y, v.z + l.z});
-            vx_[j] = v.x, vy_[j] = v.y, vz_[j] = v.z;
-            lx_[j] = l.x, ly_[j] = l.y, lz_[j] = l.z;
-            hx_[j] = h.x, hy_[j] = h.y, hz_[j] = h.z;
+            pairs_.vx[j] = v.x, pairs_.vy[j] = v.y, pairs_.vz[j] = v.z;
+            pairs_.lx[j] = l.x, pairs_.ly[j] = l.y, pairs_.lz[j] = l.z;
+            pairs_.hx[j] = h.x, pairs_.hy[j] = h.y, pairs_.hz[j] = h.z;
             const float m = 1.0f - dot(l, h), m2 = m * m;
-            fresnel_[j] = f0 + (1.0f - f0) * (m2 * m2 * m);
-            diffuse_[j] = (1.0f - fresnel_[j]) * albedo * (1.0f / shared::kPi);
-            light2_[j] = light.alpha * light.alpha;
-            exposure_[j] = 1.0f;
+            pairs_.fresnel[j] = f0 + (1.0f - f0) * (m2 * m2 * m);
+            pairs_.diffuse[j] = (1.0f - pairs_.fresnel[j]) * albedo * (1.0f / shared::kPi);
+            pairs_.light2[j] = light.alpha * light.alpha;
+            pairs_.exposure[j] = 1.0f;
             ++j;
             const double next = c * turn_cos - s * turn_sin;
             s = c * turn_sin + s * turn_cos;
@@ -71,19 +135,9 @@ PictureLobe::PictureLobe(const MapSurface& surface, bool quick, bool metal)
     expose(surface);
 }
 
-// What the eye of each pair receives from a surface, times the exposure.
 void PictureLobe::radiance(const Direction& n, float alpha2, float base_share, Row& out) const
 {
-    for (int i = 0; i < pairs_; ++i) {
-        const std::size_t j = static_cast<std::size_t>(i);
-        const float nl = std::max(n.x * lx_[j] + n.y * ly_[j] + n.z * lz_[j], 0.0f);
-        const float nv = std::max(std::abs(n.x * vx_[j] + n.y * vy_[j] + n.z * vz_[j]), 1e-4f);
-        const float nh = std::min(std::max(n.x * hx_[j] + n.y * hy_[j] + n.z * hz_[j], 0.0f), 1.0f);
-        const float alpha = std::sqrt(alpha2 + light2_[j]);
-        const float lobe =
-            shared::ggx_distribution(nh, alpha) * shared::ggx_visibility(nl, nv, alpha);
-        out[j] = (fresnel_[j] * lobe + diffuse_[j] * base_share) * nl * exposure_[j];
-    }
+    kernel_.radiance(pairs_, n, alpha2, base_share, out);
 }
 
 // As a display shows it: clipped, in steps that look alike.
@@ -116,13 +170,13 @@ void PictureLobe::expose(const MapSurface& surface)
         blocks.insert(blocks.end(), sums.begin(), sums.end());
     }
     std::vector<float> values(blocks.size());
-    for (std::size_t j = 0; j < static_cast<std::size_t>(pairs_); ++j) {
+    for (std::size_t j = 0; j < static_cast<std::size_t>(pairs_.count); ++j) {
         std::transform(blocks.begin(), blocks.end(), values.begin(),
                        [&](const Row& sum) { return sum[j] * (1.0f / (kBlock * kBlock)); });
         std::sort(values.begin(), values.end());
         const float middle = std::max(values[values.size() / 2], 1e-6f);
         const float bright = std::max(values[values.size() * 97 / 100], 1e-6f);
-        exposure_[j] = std::min(kMiddle / middle, kWhite / bright);
+        pairs_.exposure[j] = std::min(kMiddle / middle, kWhite / bright);
     }
 }
 
@@ -140,13 +194,7 @@ FittedLobe PictureLobe::operator()(const Cells& cells, const Means& means) const
     }
     show(truth);
     const auto cost = [&](float alpha2) {
-        radiance(lobe.normal, alpha2, length, one);
-        show(one);
-        for (std::size_t j = 0; j < one.size(); ++j)
-            one[j] = (one[j] - truth[j]) * (one[j] - truth[j]);
-        float sum = 0.0f;
-        for (int j = 0; j < pairs_; ++j) sum += one[static_cast<std::size_t>(j)];
-        return sum;
+        return kernel_.distance(pairs_, lobe.normal, alpha2, length, truth);
     };
     // The plain mip, then a ladder of widths, then closer about the best.
     const float plain = std::max(means.p * means.p * (means.p * means.p), kNarrowest2);
