@@ -280,16 +280,10 @@ std::string scores_table(const SimulationTable& table)
 }
 
 // What the shaded times are.
-std::string gaps_text(const SimulationTable& table)
+std::string gaps_line(const SimulationTable& table)
 {
-    if (table.gaps_s.empty()) return "";
-    double sum_s = 0.0;
-    for (const auto& [from_s, to_s] : table.gaps_s) sum_s += to_s - from_s;
-    char text[160];
-    std::snprintf(text, sizeof text, "grey: %.1f days in %zu gap%s of which the file has no rows; "
-                  "what is drawn there was made up", sum_s / 86400.0, table.gaps_s.size(),
-                  table.gaps_s.size() == 1 ? "" : "s");
-    return std::string("<p class=\"warn\">") + text + "</p>\n";
+    const std::string text = gaps_text(table);
+    return text.empty() ? text : "<p class=\"warn\">" + text + "</p>\n";
 }
 
 // The first and last time of a dated table.
@@ -319,7 +313,7 @@ std::string html_report(const SimulationTable& table)
            title + " - petrichor</title>\n<style>" + kStyle +
            "</style>\n</head>\n<body>\n<main>\n" + "<h1>" + title + "</h1>\n<p class=\"sub\">" +
            escaped(table.model) + " model, " + escaped(table.mode) + "; " + period(table) +
-           "state " + hash_text(table.state_hash) + "</p>\n" + warnings + gaps_text(table) + scores_table(table) +
+           "state " + hash_text(table.state_hash) + "</p>\n" + warnings + gaps_line(table) + scores_table(table) +
            "<noscript>" + svg_plot(table) + "</noscript>\n" +
            "<section class=\"card\"><div class=\"bar\"><span id=\"now\"></span><span>"
            "<button id=\"out\" aria-label=\"zoom out\">&minus;</button> "
