@@ -287,9 +287,12 @@ SimulationTable simulate_physical(const std::vector<Input>& inputs, const Simula
     return table;
 }
 
-std::string fitted_toml(const std::vector<Input>& inputs, const SimulateOptions& options)
+std::string fitted_toml(const std::vector<Input>& inputs, const SimulateOptions& options,
+                        SimulationTable& said)
 {
     const PhysicalInput input = physical_input(inputs, options);
+    add_read_report(said, input.read);
+    said.notes.insert(said.notes.end(), input.notes.begin(), input.notes.end());
     return fitted_artist_toml(input.read, input.run);
 }
 

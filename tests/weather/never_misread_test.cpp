@@ -73,6 +73,17 @@ TEST(NeverMisread, AColumnThatSpeaksOfWeatherIsUnderstoodOrAnError)
     EXPECT_EQ(refusal("time,air_temp_c,battery_v\n2024-01-01T00:00,-1,12\n"), "read");
 }
 
+TEST(NeverMisread, UnitsThatNoNameSaysAreTold)
+{
+    const auto report = raw("time,temp,rh,wind_m_s,precip,solar_w_m2\n2024-01-01T00:00,1,80,3,0,0\n"
+                            "2024-01-01T01:00,1,80,3,0,0\n")
+                            .report;
+    EXPECT_THAT(notes(report),
+                HasSubstr("columns: their names say no unit: temp taken as C, precip taken as mm\n"));
+    EXPECT_THAT(refusal("time,air_temp_c,solar\n2024-01-01T00:00,1,3\n"),
+                HasSubstr("not understood: solar"));
+}
+
 TEST(NeverMisread, ABareSnowColumnIsAmbiguous)
 {
     EXPECT_THAT(refusal("time,air_temp_c,snow\n2024-01-01T00:00,-1,30\n"),
