@@ -388,6 +388,13 @@ TEST(Window, BeyondTheEndsOfTheWeatherIsTold)
         << both;
     EXPECT_NE(both.find("--to is after the weather, which ends at "), std::string::npos) << both;
     EXPECT_EQ(said("2020-01-02T03:00", "2020-01-02T20:00").find("the weather, which"), std::string::npos);
+    const std::string dates = read_file(work / "out.csv");
+    EXPECT_NE(dates.find("\n10800,2020-01-02T03:00:00Z,"), std::string::npos) << dates.substr(0, 900);
+    said("3h", "0.5d");
+    EXPECT_NE(read_file(work / "out.csv").find("\n43200,"), std::string::npos);
+    EXPECT_EQ(read_file(work / "out.csv").find("\n46800,"), std::string::npos);
+    said("180min", "20h");
+    EXPECT_EQ(read_file(work / "out.csv"), dates) << "spans from the start";
 }
 
 // What --fit-artist has read and filled is told, and an option that it could not use is an error.
