@@ -142,7 +142,7 @@ const dayText=d=>d.getUTCDate()+" "+MONTHS[d.getUTCMonth()],clockText=d=>two(d.g
 // Round dates: clock times, days of a month, months, years; as in the static plot.
 function dateTicks(a,b,most){const span=b-a,r=[];let step=0;
  for(const m of[1,2,5,10,15,30,60,120,180,360,720])if(!step&&span/(60*m)<=most)step=60*m;
- if(step){const o=S/1000;for(let k=Math.ceil((a+o)/step);k*step-o<=b;k++){const t=k*step-o,d=dateOf(t);r.push([t,d.getUTCHours()||d.getUTCMinutes()?clockText(d):dayText(d)])}return r}
+ if(step){const o=S/1000;for(let k=Math.ceil((a+o)/step);k*step-o<=b;k++){const t=k*step-o,d=dateOf(t);r.push([t,d.getUTCHours()||d.getUTCMinutes()?clockText(d):dayText(d)])}if(r.length&&r[0][1].includes(":"))r[0][1]+=" "+dayText(dateOf(r[0][0]));return r}
  for(const n of[1,2,5,10,15])if(!step&&span/(DAY*n)<=most)step=n;
  if(step){const o=S/1000;for(let k=Math.ceil((a+o)/DAY);k*DAY-o<=b;k++){const t=k*DAY-o,d=dateOf(t),n=d.getUTCDate();if((n-1)%step===0&&!(step>1&&n>31-step))r.push([t,dayText(d)])}return r}
  for(const n of[1,2,3,6,12,24,60,120,600])if(!step&&span/(30.4*DAY*n)<=most)step=n;step=step||1200;
