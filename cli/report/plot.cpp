@@ -228,6 +228,13 @@ void add_panel(Drawing& drawing, const SimulationTable& table,
     };
     const double right = kWidth - kRight;
     add_heading(drawing, table, panel, top);
+    for (const auto& [from_s, to_s] : table.gaps_s) {
+        const double from = time.x(std::clamp(from_s, time.first_s, time.last_s));
+        const double to = time.x(std::clamp(to_s, time.first_s, time.last_s));
+        if (to <= from) continue;
+        drawing.shapes.push_back(DrawnArea{
+            {{from, top}, {to, top}, {to, top + height}, {from, top + height}}, kMark, 0.22});
+    }
     const auto ticks = axis_ticks(low, high, panel.forcing ? 4 : 5, false);
     for (double tick : ticks) {
         add_line(drawing, {kLeft, y(tick)}, {right, y(tick)}, kGrid);
@@ -325,8 +332,10 @@ Drawing plot_of(const SimulationTable& table)
     const PlottedEvents events = plotted_events(table.events);
     const std::size_t half = (events.shown.size() + 1) / 2;
     const std::string under = subtitle(table);
+    std::vector<std::string> warnings = table.warnings;
+    if (!table.gaps_s.empty()) warnings.push_back(gaps_text(table));
     const double head =
-        kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(table.warnings.size());
+        kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(warnings.size());
     drawing.height = head + kBottom - kPanelGap + 22.0;
     // Many panels are made lower, so that the picture stays one that can be looked at.
     double panels = 0.0;
@@ -360,7 +369,7 @@ Drawing plot_of(const SimulationTable& table)
                   true});
     if (!under.empty()) add_label(drawing, {kLeft, 46}, Anchor::Start, under);
     double line_y = under.empty() ? 46.0 : 63.0;
-    for (const std::string& warning : table.warnings) {
+    for (const std::string& warning : warnings) {
         drawing.shapes.push_back(
             DrawnText{{kLeft, line_y}, warning, kWarning, 12.0, Anchor::Start, false});
         line_y += 17.0;

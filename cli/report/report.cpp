@@ -142,7 +142,7 @@ const dayText=d=>d.getUTCDate()+" "+MONTHS[d.getUTCMonth()],clockText=d=>two(d.g
 // Round dates: clock times, days of a month, months, years; as in the static plot.
 function dateTicks(a,b,most){const span=b-a,r=[];let step=0;
  for(const m of[1,2,5,10,15,30,60,120,180,360,720])if(!step&&span/(60*m)<=most)step=60*m;
- if(step){const o=S/1000;for(let k=Math.ceil((a+o)/step);k*step-o<=b;k++){const t=k*step-o,d=dateOf(t);r.push([t,d.getUTCHours()||d.getUTCMinutes()?clockText(d):dayText(d)])}return r}
+ if(step){const o=S/1000;for(let k=Math.ceil((a+o)/step);k*step-o<=b;k++){const t=k*step-o,d=dateOf(t);r.push([t,d.getUTCHours()||d.getUTCMinutes()?clockText(d):dayText(d)])}if(r.length&&r[0][1].includes(":"))r[0][1]+=" "+dayText(dateOf(r[0][0]));return r}
  for(const n of[1,2,5,10,15])if(!step&&span/(DAY*n)<=most)step=n;
  if(step){const o=S/1000;for(let k=Math.ceil((a+o)/DAY);k*DAY-o<=b;k++){const t=k*DAY-o,d=dateOf(t),n=d.getUTCDate();if((n-1)%step===0&&!(step>1&&n>31-step))r.push([t,dayText(d)])}return r}
  for(const n of[1,2,3,6,12,24,60,120,600])if(!step&&span/(30.4*DAY*n)<=most)step=n;step=step||1200;
@@ -280,16 +280,10 @@ std::string scores_table(const SimulationTable& table)
 }
 
 // What the shaded times are.
-std::string gaps_text(const SimulationTable& table)
+std::string gaps_line(const SimulationTable& table)
 {
-    if (table.gaps_s.empty()) return "";
-    double sum_s = 0.0;
-    for (const auto& [from_s, to_s] : table.gaps_s) sum_s += to_s - from_s;
-    char text[160];
-    std::snprintf(text, sizeof text, "grey: %.1f days in %zu gap%s of which the file has no rows; "
-                  "what is drawn there was made up", sum_s / 86400.0, table.gaps_s.size(),
-                  table.gaps_s.size() == 1 ? "" : "s");
-    return std::string("<p class=\"warn\">") + text + "</p>\n";
+    const std::string text = gaps_text(table);
+    return text.empty() ? text : "<p class=\"warn\">" + text + "</p>\n";
 }
 
 // The first and last time of a dated table.
@@ -319,7 +313,7 @@ std::string html_report(const SimulationTable& table)
            title + " - petrichor</title>\n<style>" + kStyle +
            "</style>\n</head>\n<body>\n<main>\n" + "<h1>" + title + "</h1>\n<p class=\"sub\">" +
            escaped(table.model) + " model, " + escaped(table.mode) + "; " + period(table) +
-           "state " + hash_text(table.state_hash) + "</p>\n" + warnings + gaps_text(table) + scores_table(table) +
+           "state " + hash_text(table.state_hash) + "</p>\n" + warnings + gaps_line(table) + scores_table(table) +
            "<noscript>" + svg_plot(table) + "</noscript>\n" +
            "<section class=\"card\"><div class=\"bar\"><span id=\"now\"></span><span>"
            "<button id=\"out\" aria-label=\"zoom out\">&minus;</button> "

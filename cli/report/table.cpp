@@ -107,6 +107,18 @@ std::string time_text(const SimulationTable& table, double time_s)
     return text;
 }
 
+std::string gaps_text(const SimulationTable& table)
+{
+    if (table.gaps_s.empty()) return "";
+    double sum_s = 0.0;
+    for (const auto& [from_s, to_s] : table.gaps_s) sum_s += to_s - from_s;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "grey: %.1f days in %zu gap%s of which the file has no rows; what is drawn there was made up",
+                  sum_s / 86400.0, table.gaps_s.size(), table.gaps_s.size() == 1 ? "" : "s");
+    return text;
+}
+
 std::string csv_text(const SimulationTable& table, bool with_hash)
 {
     std::string text;

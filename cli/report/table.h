@@ -95,6 +95,9 @@ std::string clock_name(const SimulationTable& table);
 /// The time of a row for people: "2005-12-01 06:00" by that clock when dated, else seconds.
 std::string time_text(const SimulationTable& table, double time_s);
 
+/// What the shaded times of plots and reports are: how many days in how many gaps; empty without any.
+std::string gaps_text(const SimulationTable& table);
+
 /// Header and rows, as many digits as give the same bits again; times in `time_utc`, or where the
 /// file has another clock in `time_local` with its offset. With `with_hash` a last line "# hash
 /// ...".

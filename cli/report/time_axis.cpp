@@ -113,13 +113,16 @@ std::vector<TimeTick> calendar_ticks(std::int64_t start_us, double first_s, doub
         if (ticks.empty() && fits(30.4 * kDay_s * months)) ticks = month_ticks(c, months);
     }
     if (ticks.empty()) return elapsed_ticks(first_s, last_s, most);
-    // The year once, where no tick says it.
+    // Under hours the day once, where the first is no midnight; else the year once, where no tick says it.
+    TimeTick& first = ticks.front();
+    const auto civil = weather::civil_from_us(c.us(first.time_s));
     const bool said = std::any_of(ticks.begin(), ticks.end(), [](const TimeTick& t) {
         return t.label.size() == 4 && t.label[0] <= '9';
     });
-    if (!said)
-        ticks.front().label +=
-            " " + std::to_string(weather::civil_from_us(c.us(ticks.front().time_s)).year);
+    if (first.label == clock_text(civil))
+        first.label += " " + day_text(civil);
+    else if (!said)
+        first.label += " " + std::to_string(civil.year);
     return ticks;
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -41,6 +42,51 @@ SimulationTable simulate(const std::vector<Input>& inputs, const SimulateOptions
     return simulate_physical(inputs, options);
 }
 
+void tell(const SimulationTable& table)
+{
+    for (const std::string& note : table.notes) std::cerr << "info simulate: " << note << '\n';
+    for (const std::string& warning : table.warnings)
+        std::cerr << "warn simulate: " << warning << '\n';
+}
+
+void write_fit(const std::vector<Input>& inputs, const SimulateOptions& options,
+               const std::vector<std::string>& unpacking)
+{
+    const std::pair<bool, const char*> others[] = {
+        {!options.from.empty(), "--from"},
+        {!options.to.empty(), "--to"},
+        {!options.every.empty(), "--every"},
+        {options.physical.utc, "--utc"},
+        {!options.observed.empty(), "--observed"},
+        {options.plot != "auto", "--plot"},
+        {options.json, "--json"},
+        {options.hash, "--hash"},
+        {options.physical.members > 0, "--ensemble"},
+        {options.physical.sensitivity, "--sensitivity"},
+        {!options.terrain.file.empty(), "--grid"},
+        {!options.maps.empty(), "--map"},
+        {!options.initial.empty(), "--initial"},
+        {!options.checkpoint.empty(), "--checkpoint"},
+        {!options.resume.empty(), "--resume"},
+        {!options.params.empty(), "--params"},
+        {options.model == "artist", "--model artist"},
+        {options.outputs.size() > 1, "more than one -o"}};
+    for (const auto& [given, name] : others)
+        if (given)
+            throw Error(std::string("simulate: ") + name + " is not of --fit-artist",
+                        "It fits to the whole file and writes one TOML file: leave it out.");
+    SimulationTable said;
+    said.notes = unpacking;
+    const std::string toml = fitted_toml(inputs, options, said);
+    tell(said);
+    if (options.outputs.empty() || options.outputs.front() == "-") {
+        std::cout << toml;
+        return;
+    }
+    write_text_file(options.outputs.front(), toml);
+    std::cerr << "info simulate: wrote " << options.outputs.front() << '\n';
+}
+
 void run(const SimulateOptions& options)
 {
     if (options.list) {
@@ -62,20 +108,14 @@ void run(const SimulateOptions& options)
                      options.grid_point == "nearest"},
                     &unpacking);
     if (options.fit_artist) {
-        const std::string toml = fitted_toml(inputs, options);
-        if (options.outputs.empty() || options.outputs.front() == "-")
-            std::cout << toml;
-        else
-            write_text_file(options.outputs.front(), toml);
+        write_fit(inputs, options, unpacking);
         return;
     }
     for (const std::string& output : options.outputs) check_output(output);
     SimulationTable table = simulate(inputs, options);
     table.notes.insert(table.notes.begin(), unpacking.begin(), unpacking.end());
     table.panels = chosen_panels(table, options.plot);
-    for (const std::string& note : table.notes) std::cerr << "info simulate: " << note << '\n';
-    for (const std::string& warning : table.warnings)
-        std::cerr << "warn simulate: " << warning << '\n';
+    tell(table);
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty() && options.maps.empty() && !options.json) outputs.push_back("-");
     for (const std::string& output : outputs) {

@@ -167,6 +167,8 @@ void begin_at_measurement(const std::string& file, PhysicalInput& input)
     t = weather::cut_forcing(t, at_us, t.time_us.back());
     input.notes.push_back("the run begins at " + weather::iso_from_us(at_us) +
                           " with the measured road");
+    if (o.fallen_to_zero > 0)
+        input.notes.push_back("the measured road: " + weather::fallen_to_zero_text(o));
     // As other columns of nothing but zeros; METRo takes it as it is.
     const auto zero = std::count(o.subsurface_c.begin(), o.subsurface_c.end(), 0.0);
     if (zero >= 6 && zero == std::count_if(o.subsurface_c.begin(), o.subsurface_c.end(),
@@ -287,9 +289,12 @@ SimulationTable simulate_physical(const std::vector<Input>& inputs, const Simula
     return table;
 }
 
-std::string fitted_toml(const std::vector<Input>& inputs, const SimulateOptions& options)
+std::string fitted_toml(const std::vector<Input>& inputs, const SimulateOptions& options,
+                        SimulationTable& said)
 {
     const PhysicalInput input = physical_input(inputs, options);
+    add_read_report(said, input.read);
+    said.notes.insert(said.notes.end(), input.notes.begin(), input.notes.end());
     return fitted_artist_toml(input.read, input.run);
 }
 

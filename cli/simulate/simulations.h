@@ -21,8 +21,9 @@ SimulationTable simulate_physical(const std::vector<Input>& inputs, const Simula
 /// Writes the maps, too. Ctrl-C stops it: throws Interrupted that says how to go on.
 SimulationTable simulate_grid(const std::vector<Input>& inputs, const SimulateOptions& options);
 
-/// TOML of the artist rates that suit a weather file.
-std::string fitted_toml(const std::vector<Input>& inputs, const SimulateOptions& options);
+/// TOML of the artist rates that suit a weather file; what was read, and what to be warned of, goes into `said`.
+std::string fitted_toml(const std::vector<Input>& inputs, const SimulateOptions& options,
+                        SimulationTable& said);
 
 // ---- shared by them ----
 

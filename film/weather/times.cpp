@@ -58,6 +58,21 @@ bool is_month_and_day(std::string_view text)
            (text.size() == 5 || text[5] == 'T' || text[5] == ' ');
 }
 
+// "30min", "6h": in seconds, as fraction_from. Nothing without a unit.
+std::optional<Fraction> span_with_unit(std::string_view text)
+{
+    constexpr std::array<std::pair<std::string_view, std::int64_t>, 4> kUnits{
+        {{"min", 60}, {"h", 3600}, {"d", 86400}, {"s", 1}}};
+    for (const auto& [unit, seconds] : kUnits) {
+        if (text.size() <= unit.size() || text.substr(text.size() - unit.size()) != unit) continue;
+        Fraction fraction =
+            fraction_from(weather::trimmed(text.substr(0, text.size() - unit.size())));
+        fraction.numerator *= seconds;
+        return fraction;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Fraction parse_fraction(std::string_view text, const std::string& option)
@@ -69,15 +84,9 @@ Fraction parse_fraction(std::string_view text, const std::string& option)
 
 Fraction parse_duration(std::string_view text, const std::string& option)
 {
-    constexpr std::array<std::pair<std::string_view, std::int64_t>, 4> kUnits{
-        {{"min", 60}, {"h", 3600}, {"d", 86400}, {"s", 1}}};
-    for (const auto& [unit, seconds] : kUnits) {
-        if (text.size() <= unit.size() || text.substr(text.size() - unit.size()) != unit) continue;
-        Fraction fraction =
-            fraction_from(weather::trimmed(text.substr(0, text.size() - unit.size())));
-        if (fraction.numerator <= 0 || fraction.denominator <= 0) refuse_duration(text, option);
-        fraction.numerator *= seconds;
-        return fraction;
+    if (const auto span = span_with_unit(text)) {
+        if (span->numerator <= 0 || span->denominator <= 0) refuse_duration(text, option);
+        return *span;
     }
     return parse_fraction(text, option);
 }
@@ -90,6 +99,8 @@ double parse_time(const std::string& text, const std::string& option,
         throw Error(option + ": times are seconds from 0 up, got " + text,
                     "Give a time from the start of the run.");
     }
+    if (const auto span = span_with_unit(text); span && span->numerator > 0 && span->denominator > 0)
+        return span->value();
     const auto seconds_of = [&](std::int64_t us) {
         return static_cast<double>(us - *start_us) * 1e-6;
     };
@@ -98,7 +109,7 @@ double parse_time(const std::string& text, const std::string& option,
             throw Error(option + ": \"" + text + "\" is a date, but keys count seconds",
                         "Give seconds from the start of the run.");
         }
-        throw Error(option + ": \"" + text + "\" is not a number of seconds",
+        throw Error(option + ": \"" + text + "\" is neither seconds nor a span as 6h or 1d",
                     "Give seconds from the start of the run.");
     }
     if (is_month_and_day(text)) {
@@ -115,7 +126,7 @@ double parse_time(const std::string& text, const std::string& option,
         return seconds_of(*us);
     }
     throw Error(option + ": \"" + text +
-                    "\" is neither seconds nor a date as 2005-12-01, 2005-12-01T06:00 or 12-01",
+                    "\" is neither seconds, a span as 6h or 1d, nor a date as 2005-12-01, 2005-12-01T06:00 or 12-01",
                 "The weather begins at " + weather::iso_from_us(*start_us, offset_s) + ".");
 }
 

@@ -27,7 +27,7 @@ Fraction parse_duration(std::string_view text, const std::string& option);
 
 /// A time of a run, in seconds from its start.
 ///
-/// Numbers are seconds. With `start_us` (microseconds since 1970 of second 0) also dates in ISO
+/// Numbers are seconds; "6h" and "1d" are spans from the start, too. With `start_us` (microseconds since 1970 of second 0) also dates in ISO
 /// 8601
 /// ("2005-12-01", "2005-12-01T06:00+01:00"; without a zone `offset_s` ahead of UTC), and month and
 /// day alone ("01-15", "01-15T12:00"): the first such day from the start on, for typical years.

@@ -388,6 +388,39 @@ TEST(Window, BeyondTheEndsOfTheWeatherIsTold)
         << both;
     EXPECT_NE(both.find("--to is after the weather, which ends at "), std::string::npos) << both;
     EXPECT_EQ(said("2020-01-02T03:00", "2020-01-02T20:00").find("the weather, which"), std::string::npos);
+    const std::string dates = read_file(work / "out.csv");
+    EXPECT_NE(dates.find("\n10800,2020-01-02T03:00:00Z,"), std::string::npos) << dates.substr(0, 900);
+    said("3h", "0.5d");
+    EXPECT_NE(read_file(work / "out.csv").find("\n43200,"), std::string::npos);
+    EXPECT_EQ(read_file(work / "out.csv").find("\n46800,"), std::string::npos);
+    said("180min", "20h");
+    EXPECT_EQ(read_file(work / "out.csv"), dates) << "spans from the start";
+}
+
+// What --fit-artist has read and filled is told, and an option that it could not use is an error.
+TEST(FitArtist, TellsWhatWasReadAndTakesNoOtherOption)
+{
+    Workplace work("fit-artist");
+    std::string text = "time,air_temp_c,sw_down_w_m2\n";
+    for (int h = 0; h < 24; ++h) text += printed("2020-01-02T%02d:00Z,%d,0\n", h, h);
+    write_file(work / "w.csv", text);
+    const auto fit = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"simulate", "w.csv", "--fit-artist", "-o", "rates.toml"});
+        return run_petrichor({more}, work.path());
+    };
+    const Outcome good = fit({});
+    EXPECT_EQ(good.exit_code, 0) << good.err;
+    EXPECT_NE(good.err.find("air_temp: 24 read"), std::string::npos) << good.err;
+    EXPECT_NE(good.err.find("have no amount in the file: taken as dry"), std::string::npos) << good.err;
+    EXPECT_NE(good.err.find("wrote rates.toml"), std::string::npos) << good.err;
+    EXPECT_TRUE(good.out.empty());
+    const std::vector<std::vector<std::string>> others{
+        {"--from", "6h"}, {"--json"}, {"--sensitivity"}, {"-o", "two.csv"}, {"--ensemble", "3"}};
+    for (const auto& more : others) {
+        const Outcome bad = fit(more);
+        EXPECT_EQ(bad.exit_code, 2) << more.front();
+        EXPECT_NE(bad.err.find("is not of --fit-artist"), std::string::npos) << bad.err;
+    }
 }
 
 TEST(BadKeys, AreListedWithTheirLines)

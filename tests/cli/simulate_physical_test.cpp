@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "base/error.h"
+#include "cli/report/drawing.h"
 #include "cli/report/panel_choice.h"
 #include "cli/report/plot.h"
 #include "cli/report/plot_axes.h"
@@ -343,6 +344,24 @@ TEST(SimulatePhysical, GapsOfTheFileAreShown)
     EXPECT_NE(html.find("\"gaps\":[[25200.0,129600.0]]"), std::string::npos);
     EXPECT_NE(html.find("grey: 1.2 days in 1 gap of which the file has no rows"), std::string::npos);
     EXPECT_EQ(html_report(simulated(weather_csv(), city())).find("grey:"), std::string::npos);
+
+    // A picture shades the same hours in every panel: 29 of the 39 of the axis.
+    const Drawing drawing = plot_of(t);
+    std::size_t shaded = 0, said = 0;
+    for (const DrawnShape& shape : drawing.shapes) {
+        if (const auto* words = std::get_if<DrawnText>(&shape)) said += words->text == gaps_text(t);
+        const auto* area = std::get_if<DrawnArea>(&shape);
+        if (!area || area->points.size() != 4 || area->opacity != 0.22) continue;
+        ++shaded;
+        const double from = area->points[0].x, to = area->points[1].x;
+        EXPECT_NEAR((to - from) / (from - 62.0), 29.0 / 7.0, 0.01);
+    }
+    EXPECT_EQ(shaded, t.panels.size());
+    EXPECT_EQ(said, 1u);
+    for (const DrawnShape& shape : plot_of(simulated(weather_csv(), city())).shapes) {
+        const auto* words = std::get_if<DrawnText>(&shape);
+        EXPECT_FALSE(words && words->text.starts_with("grey:"));
+    }
 }
 
 // An axis ends at round values and is not twice as long as what is on it.

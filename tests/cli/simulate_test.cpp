@@ -1,6 +1,7 @@
 // The tables, plots and reports of `petrichor simulate`, without the program around them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -14,8 +15,10 @@
 #include "cli/report/plot.h"
 #include "cli/report/plot_axes.h"
 #include "cli/report/report.h"
+#include "cli/report/time_axis.h"
 #include "cli/simulate/artist.h"
 #include "weather/models/artist/csv.h"
+#include "weather/readers/text.h"
 
 namespace petrichor::cli {
 namespace {
@@ -185,6 +188,24 @@ TEST(Plot, TimesOfEventsAreShort)
     EXPECT_EQ(time_text(table, 20.841999999999999), "20.842 s");
     EXPECT_EQ(time_text(table, 38.5), "38.5 s");
     EXPECT_EQ(time_text(table, 12.0), "12 s");
+}
+
+// An axis of hours says its day, one of days or months its year.
+TEST(Plot, TheFirstTickOfADatedAxisSaysWhatTheOthersDoNot)
+{
+    const std::int64_t start_us = weather::us_from_iso("2019-03-17T04:20").value();
+    const auto labels = [&](double first_s, double last_s) {
+        std::vector<std::string> out;
+        for (const TimeTick& tick : calendar_ticks(start_us, first_s, last_s, 12)) out.push_back(tick.label);
+        return out;
+    };
+    EXPECT_EQ(labels(0, 7200).front(), "04:20 17 Mar");
+    EXPECT_EQ(labels(0, 7200).at(1), "04:30");
+    const auto night = labels(3600 * 18.0, 3600 * 22.0);
+    EXPECT_EQ(night.front(), "22:30 17 Mar");
+    EXPECT_NE(std::find(night.begin(), night.end(), "18 Mar"), night.end());
+    EXPECT_EQ(labels(86400.0, 86400 * 9.0).front(), "19 Mar 2019");
+    EXPECT_EQ(labels(0, 86400 * 200.0).front(), "Apr 2019");
 }
 
 TEST(Plot, TicksAreRoundAndInside)

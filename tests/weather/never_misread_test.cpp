@@ -73,6 +73,17 @@ TEST(NeverMisread, AColumnThatSpeaksOfWeatherIsUnderstoodOrAnError)
     EXPECT_EQ(refusal("time,air_temp_c,battery_v\n2024-01-01T00:00,-1,12\n"), "read");
 }
 
+TEST(NeverMisread, UnitsThatNoNameSaysAreTold)
+{
+    const auto report = raw("time,temp,rh,wind_m_s,precip,solar_w_m2\n2024-01-01T00:00,1,80,3,0,0\n"
+                            "2024-01-01T01:00,1,80,3,0,0\n")
+                            .report;
+    EXPECT_THAT(notes(report),
+                HasSubstr("columns: their names say no unit: temp taken as C, precip taken as mm\n"));
+    EXPECT_THAT(refusal("time,air_temp_c,solar\n2024-01-01T00:00,1,3\n"),
+                HasSubstr("not understood: solar"));
+}
+
 TEST(NeverMisread, ABareSnowColumnIsAmbiguous)
 {
     EXPECT_THAT(refusal("time,air_temp_c,snow\n2024-01-01T00:00,-1,30\n"),
@@ -182,6 +193,8 @@ TEST(NeverMisread, LocalTimesWithoutAZoneAreNoticed)
     const auto moved = raw(text, options);
     EXPECT_EQ(iso_from_us(moved.table.time_us.front()), "2024-06-01T08:00:00Z");
     EXPECT_THAT(notes(moved.report), testing::Not(HasSubstr("--file-zone")));
+    options.utc_offset_h = 4.0;
+    EXPECT_THAT(notes(raw(text, options).report), HasSubstr("--file-zone -8"));
 }
 
 TEST(NeverMisread, FreshSnowOfADayTellsThePhase)
@@ -198,27 +211,93 @@ TEST(NeverMisread, FreshSnowOfADayTellsThePhase)
     EXPECT_NEAR(table[Field::SnowDepth].front(), 0.12, 1e-12);
 }
 
-TEST(NeverMisread, AnEpwWithoutPrecipitationSaysSoAndItCanBeEstimated)
+namespace {
+
+// Denver's typical year with one column of its rows, and its longitude, changed.
+std::string denver_with(const std::filesystem::path& assets, std::size_t column, const char* value,
+                        const char* longitude = "-104.65")
 {
-    NEED_ASSETS(assets);
     std::istringstream in(text_of(assets / "weather/USA_CO_Denver.Intl.AP.725650_TMY3.epw"));
     std::string text, line;
     for (int n = 0; std::getline(in, line); ++n) {
         const auto columns = split(line, ',');
-        if (n >= 8 && columns.size() > 34) {
+        if (n == 0 || (n >= 8 && columns.size() > 34)) {
+            const std::size_t at = n == 0 ? 7 : column;
             std::string changed;
             for (std::size_t i = 0; i < columns.size(); ++i)
-                changed.append(i ? "," : "").append(i == 33 ? "0" : std::string(columns[i]));
+                changed.append(i ? "," : "").append(i != at  ? std::string(columns[i])
+                                                    : n == 0 ? longitude
+                                                             : value);
             line = changed;
         }
         text += line + "\n";
     }
+    return text;
+}
+
+}  // namespace
+
+TEST(NeverMisread, AnEpwWithoutPrecipitationSaysSoAndItCanBeEstimated)
+{
+    NEED_ASSETS(assets);
+    const std::string text = denver_with(assets, 33, "0");
     ReadOptions options;
     const auto dry = read_weather(text, options);
     EXPECT_THAT(notes(dry.report), testing::AllOf(HasSubstr("taken as not measured"),
                                                   HasSubstr("no precipitation in the file")));
     options.filling.missing_precip = MissingPrecip::Estimate;
     EXPECT_GT(total(read_weather(text, options).table, Field::Precip), 50.0);
+}
+
+// Empty cells of an EPW are missing, as its nines are.
+TEST(NeverMisread, EmptyCellsOfAnEpwAreMissing)
+{
+    NEED_ASSETS(assets);
+    for (const auto& [column, nines] : {std::pair{33, "999"}, {22, "99"}}) {
+        const auto at = static_cast<std::size_t>(column);
+        const auto empty = raw(denver_with(assets, at, ""));
+        const auto coded = raw(denver_with(assets, at, nines));
+        EXPECT_EQ(notes(empty.report), notes(coded.report));
+        for (std::size_t f = 0; f < kFieldCount; ++f) {
+            const auto& a = empty.table.columns[f];
+            EXPECT_TRUE(std::ranges::equal(a, coded.table.columns[f], [](double x, double y) {
+                return x == y || (std::isnan(x) && std::isnan(y));
+            })) << f;
+        }
+    }
+}
+
+// No snow in a winter with frost is a column that nobody filled in; none in a summer was measured.
+TEST(NeverMisread, AWinterWithoutAnyDepthWasNotMeasured)
+{
+    const auto read = [](const char* air_c, const char* last_depth) {
+        std::string text = "time,air_temp_c,snow_depth_m\n";
+        for (int day = 0; day < 70; ++day) {
+            const std::int64_t us = us_from_iso("2024-01-01").value() + day * 86400000000LL;
+            text += iso_from_us(us) + "," + (day < 20 ? air_c : "3") + "," +
+                    (day == 69 ? last_depth : "0") + "\n";
+        }
+        return raw(text);
+    };
+    const auto frost = read("-5", "0");
+    EXPECT_FALSE(frost.table.has(Field::SnowDepth));
+    EXPECT_THAT(notes(frost.report), HasSubstr("nothing but 0 in 70 rows with 20 days of frost"));
+    EXPECT_TRUE(read("5", "0").table.has(Field::SnowDepth));
+    EXPECT_TRUE(read("-5", "0.01").table.has(Field::SnowDepth));
+
+    NEED_ASSETS(assets);
+    const auto denver = raw(denver_with(assets, 30, "0"));
+    EXPECT_FALSE(denver.table.has(Field::SnowDepth));
+    EXPECT_THAT(notes(denver.report), HasSubstr("snow_depth: nothing but 0 in 8760 rows"));
+}
+
+// The sun of a typical year stands over its place, too.
+TEST(NeverMisread, ATypicalYearOfAnotherLongitudeIsNoticed)
+{
+    NEED_ASSETS(assets);
+    EXPECT_THAT(notes(raw(denver_with(assets, 34, "1")).report), Not(HasSubstr("the sun of the file")));
+    EXPECT_THAT(notes(raw(denver_with(assets, 34, "1", "0")).report),
+                HasSubstr("the zone that its times say, or its place, is wrong"));
 }
 
 // A misspelt column is never dropped without a word: in every sample with a header, each name with

@@ -375,6 +375,36 @@ TEST(Metro, TheMeasuredRoadOfAnObservationIsSeen)
 }
 
 // Clouds before a forecast are those of its beginning, fading; under what falls they are full.
+// A sensor that says 0.00 for a while between values that agree has said nothing; a road that comes to 0, that
+// is near it, or that stays there has.
+TEST(Metro, ALoneZeroBetweenValuesThatAgreeIsMissing)
+{
+    const auto read = [](const std::vector<double>& st) {
+        std::string text = "<observation><measure-list>";
+        for (std::size_t i = 0; i < st.size(); ++i) {
+            char row[200];
+            std::snprintf(row, sizeof row,
+                          "<measure><observation-time>2009-02-04T%02zu:%02zuZ</observation-time><at>2</at>"
+                          "<td>0</td><ws>3</ws><st>%g</st><sst>0</sst></measure>",
+                          i / 4, i % 4 * 15, st[i]);
+            text += row;
+        }
+        return read_metro_observation(text + "</measure-list></observation>");
+    };
+    const MetroObservation lone = read({1.55, 0, 1.5, 1.4, 0, 0, 1.5});
+    EXPECT_EQ(lone.fallen_to_zero, 3u);
+    for (const std::size_t i : {1u, 4u, 5u}) EXPECT_TRUE(std::isnan(lone.surface_c[i])) << i;
+    EXPECT_EQ(lone.surface_c[2], 1.5);
+    for (const double c : lone.subsurface_c) EXPECT_EQ(c, 0.0) << "a column of zeros is another matter";
+    const std::vector<std::vector<double>> believed{{0.5, 0, 0.5}, {1.5, 0, -0.8}, {1.5, 0}, {0, 1.5},
+                                                    {2, 0, 0, 0, 0, 2}};
+    for (const auto& st : believed) {
+        const MetroObservation kept = read(st);
+        EXPECT_EQ(kept.fallen_to_zero, 0u);
+        EXPECT_EQ(kept.surface_c, st);
+    }
+}
+
 TEST(Metro, WeatherOfTheMeasuredHours)
 {
     const auto measure = [](int hour, const char* pi) {

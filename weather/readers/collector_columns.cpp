@@ -1,6 +1,7 @@
 // Columns of a file that are of no use: unknown names, values of another quantity, nothing but zeros.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/error.h"
 #include "weather/physics/constants.h"
@@ -192,6 +193,18 @@ void RowCollector::drop_empty_columns()
         }
         return any;
     };
+    const auto not_measured = [&](Field field, const char* with) {
+        values_[static_cast<std::size_t>(field)].clear();
+        std::erase_if(fallen_, [&](const Fallen& f) { return f.field == field; });
+        FieldReport& f = report_.fields[report_index(field)];
+        note(ReadNote::Kind::Warning, 0, f.name,
+             std::string("nothing but 0 in ")
+                 .append(std::to_string(f.present))
+                 .append(" rows")
+                 .append(with)
+                 .append(": taken as not measured"));
+        f.present = 0;
+    };
     struct Rule {
         Field field;
         double days;  // so long it may be 0
@@ -213,15 +226,18 @@ void RowCollector::drop_empty_columns()
                      .append(" rows: no thermometer measures that"));
             continue;
         }
-        values_[static_cast<std::size_t>(rule.field)].clear();
-        std::erase_if(fallen_, [&](const Fallen& f) { return f.field == rule.field; });
-        FieldReport& f = report_.fields[report_index(rule.field)];
-        note(ReadNote::Kind::Warning, 0, f.name,
-             std::string("nothing but 0 in ")
-                 .append(std::to_string(f.present))
-                 .append(" rows: taken as not measured"));
-        f.present = 0;
+        not_measured(rule.field, "");
     }
+    // No snow in a summer is a measurement; none on any of sixty days and more, ten of them of frost, is a
+    // column that nobody filled in.
+    constexpr double kDays = 60.0, kFrostDays = 10.0, kFrost_k = kZeroCelsiusK - 1.0;
+    const auto& air = values_[static_cast<std::size_t>(Field::AirTemp)];
+    const auto cold = std::count_if(air.begin(), air.end(), [](double k) { return k < kFrost_k; });
+    const double frost_days = air.empty() ? 0.0 : days * static_cast<double>(cold) / static_cast<double>(air.size());
+    if (days < kDays || frost_days < kFrostDays || !all_zero(Field::SnowDepth)) return;
+    char with[60];
+    std::snprintf(with, sizeof with, " with %.0f days of frost", frost_days);
+    not_measured(Field::SnowDepth, with);
 }
 
 }  // namespace petrichor::weather

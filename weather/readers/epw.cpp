@@ -1,6 +1,6 @@
 // EnergyPlus weather: 8 header lines, then 35 columns. Hour 1 is 00:00 to 01:00 local standard
 // time: its values hold at 01:00, its sums for the hour before. Each column has its own code for
-// "missing".
+// "missing"; an empty cell is missing, too.
 #include <algorithm>
 #include <cmath>
 
@@ -129,6 +129,10 @@ static void read_epw(std::string_view text, RowCollector& rows, const ReadOption
             continue;
         for (const Column& c : kColumns) {
             if (c.index >= f.size()) continue;
+            if (trimmed(f[c.index]).empty()) {
+                rows.missing(c.field);
+                continue;
+            }
             const auto value = to_number(f[c.index]);
             if (!value) rows.unreadable(c.field, f[c.index]);
             // 77777 is an unlimited ceiling elsewhere; visibility 777.7 km means unlimited.
@@ -142,7 +146,9 @@ static void read_epw(std::string_view text, RowCollector& rows, const ReadOption
             const auto depth = to_number(f[33]);
             double hours = f.size() >= 35 ? to_number(f[34]).value_or(1.0) : 1.0;
             if (!(hours >= 1.0 && hours < 99.0)) hours = 1.0;
-            if (!depth)
+            if (trimmed(f[33]).empty())
+                rows.missing(Field::Precip);
+            else if (!depth)
                 rows.unreadable(Field::Precip, f[33]);
             else if (*depth >= 999.0 || *depth < 0.0)
                 rows.missing(Field::Precip);

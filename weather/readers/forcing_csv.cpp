@@ -182,7 +182,7 @@ Header read_header(const PlainTable& table, RowCollector& rows, const ReadOption
     h.times = find_csv_times(h.names, first);
     h.meaning.resize(h.names.size());
     bool any = false;
-    std::string bare_names, left_out;
+    std::string bare_names, left_out, assumed;
     for (std::size_t i = 0; i < h.names.size(); ++i) {
         if (h.times.uses(i)) continue;
         if (is_left_out(h.names[i], options.ignore)) {
@@ -200,6 +200,12 @@ Header read_header(const PlainTable& table, RowCollector& rows, const ReadOption
     if (!bare_names.empty())
         rows.note(ReadNote::Kind::Warning, h.line, "columns",
                   "not used, as another column says the same quantity with a unit: " + bare_names);
+    for (std::size_t i = 0; i < h.names.size(); ++i)
+        if (h.meaning[i] && !h.meaning[i]->assumed_unit.empty())
+            add_to_list(assumed, shown(trimmed(h.names[i])) + " taken as " +
+                                     std::string(h.meaning[i]->assumed_unit));
+    if (!assumed.empty())
+        rows.note(ReadNote::Kind::Info, h.line, "columns", "their names say no unit: " + assumed);
     if (!h.times.found() || !any) {
         throw Error("weather: line " + std::to_string(h.line) + ": the header '" +
                         shown(table.header) + "' has no " +

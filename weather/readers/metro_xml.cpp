@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "base/error.h"
 #include "weather/physics/cloud_of_air.h"
@@ -236,6 +237,28 @@ MetroStation read_metro_station(std::string_view text)
     return station;
 }
 
+// Zeros of at most an hour between two values that agree: no road freezes to 0.00 and is back so soon.
+// Returns how many were made missing.
+static std::size_t drop_fallen_to_zero(std::span<const std::int64_t> time_us, std::vector<double>& road_c)
+{
+    constexpr std::int64_t kLongest_us = 3600LL * kMicrosPerSecond;
+    constexpr double kAgree_k = 0.5, kFar_k = 0.75;
+    std::size_t dropped = 0;
+    for (std::size_t i = 1; i < road_c.size(); ++i) {
+        if (road_c[i] != 0.0 || road_c[i - 1] == 0.0) continue;
+        std::size_t end = i;
+        while (end < road_c.size() && road_c[end] == 0.0) ++end;
+        if (end == road_c.size()) break;
+        const double before = road_c[i - 1], after = road_c[end];
+        const bool blip = time_us[end] - time_us[i - 1] <= kLongest_us &&
+                          std::abs(after - before) <= kAgree_k && std::abs(before) >= kFar_k &&
+                          std::abs(after) >= kFar_k;
+        for (; blip && i < end; ++i, ++dropped) road_c[i] = kMissing;
+        i = end;
+    }
+    return dropped;
+}
+
 MetroObservation read_metro_observation(std::string_view text)
 {
     require_root(text, "observation");
@@ -257,6 +280,8 @@ MetroObservation read_metro_observation(std::string_view text)
         const double falls = number_of(*row, "pi");
         out.falling.push_back(falls == 0.0 || falls == 1.0 ? falls : kMissing);
     }
+    for (std::vector<double>* road_c : {&out.surface_c, &out.subsurface_c})
+        out.fallen_to_zero += drop_fallen_to_zero(out.table.time_us, *road_c);
     return out;
 }
 
@@ -443,6 +468,12 @@ MetroRoadcast read_metro_roadcast(std::string_view text)
     return out;
 }
 
+std::string fallen_to_zero_text(const MetroObservation& observed)
+{
+    return std::to_string(observed.fallen_to_zero) +
+           " values of exactly 0 C between others that agree, 0.75 K and more from it: taken as missing";
+}
+
 // The air of a forecast or of what a station measured, as weather.
 static bool recognise(const FileHead& head)
 {
@@ -472,6 +503,8 @@ static void read_metro(std::string_view text, RowCollector& rows, const ReadOpti
         table = std::move(observed.table);
         for (const double c : observed.surface_c)
             table[Field::SurfaceTemp].push_back(c + kZeroCelsiusK);
+        if (observed.fallen_to_zero > 0)
+            rows.note(ReadNote::Kind::Info, 0, "st, sst", fallen_to_zero_text(observed));
     }
     rows.site().temp_height_m = 1.5;
     rows.times_name_their_zone();  // METRo's are UTC

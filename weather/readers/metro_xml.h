@@ -31,8 +31,13 @@ MetroStation read_metro_station(std::string_view text);
 struct MetroObservation {
     ForcingTable table;
     std::vector<double> surface_c, subsurface_c, falling;
+    /// Temperatures of the road that were exactly 0 between others that agree and are not near it: a sensor
+    /// that said nothing. They are missing above.
+    std::size_t fallen_to_zero = 0;
 };
 MetroObservation read_metro_observation(std::string_view text);
+/// A sentence about what fell to zero.
+std::string fallen_to_zero_text(const MetroObservation& observed);
 
 /// The weather over the hours that were measured, not filled: air, dew point and wind as measured,
 /// pressure that of `forecast` (stations measure none, and METRo's files know no height).

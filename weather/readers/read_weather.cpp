@@ -9,6 +9,7 @@
 #include "weather/physics/solar.h"
 #include "weather/readers/air_scale.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/number_text.h"
 #include "weather/readers/refused_kinds.h"
 #include "weather/readers/text.h"
 #include "weather/text/utf16.h"
@@ -73,12 +74,13 @@ void refuse_binary(std::string_view text)
     }
 }
 
-// Whether the sun of the file rises when it should at its place: times without a zone may be local.
-void check_sun(const ForcingTable& table, bool zoned, ReadReport& report)
+// Whether the sun of the file rises when it should at its place: times without a zone may be local, or
+// in another than the one that was given.
+void check_sun(const ForcingTable& table, bool zoned, double given_h, ReadReport& report)
 {
     const Site& site = table.site;
     if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) ||
-        std::isnan(site.longitude_deg) || table.rows() < 48 || report.typical_year)
+        std::isnan(site.longitude_deg) || table.rows() < 48)
         return;
     // The sun of at most 1500 rows, and how far it agrees when the clock is turned by whole hours.
     const std::size_t stride = std::max<std::size_t>(1, table.rows() / 1500) | 1u;
@@ -104,11 +106,13 @@ void check_sun(const ForcingTable& table, bool zoned, ReadReport& report)
         }
     }
     if (std::abs(turn) < 2 || best < 0.7 || best < here + 0.1) return;
+    double zone_h = (std::isnan(given_h) ? 0.0 : given_h) - turn;
+    zone_h -= zone_h > 14.0 ? 24.0 : zone_h < -14.0 ? -24.0 : 0.0;
     report.add({ReadNote::Kind::Warning, 0, "time",
                 "the sun of the file stands " + std::to_string(std::abs(turn)) + " h " +
                     (turn > 0 ? "ahead of" : "behind") + " that of its place: " +
                     (zoned ? "the zone that its times say, or its place, is wrong"
-                           : "if its times are local, give --file-zone " + std::to_string(-turn))});
+                           : "if its times are local, give --file-zone " + number_text(zone_h))});
 }
 
 // Longwave beside what a black body as warm as the air sends: 0.6 under the driest sky, 0.9 to 1
@@ -472,7 +476,7 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
             us -= static_cast<std::int64_t>(options.utc_offset_h * 3600e6);
     }
     refuse_other_scale(result.table, result.report.format);
-    check_sun(result.table, rows.zone_named(), result.report);
+    check_sun(result.table, zoned, options.utc_offset_h, result.report);
     check_wind(result.table, result.report);
     check_light(result.table, result.report);
     check_longwave(result.table, result.report);

@@ -76,6 +76,7 @@ constexpr Name kNames[] = {
     {"global_horizontal_irradiance", Field::Shortwave, Quantity::Flux},
     {"solar_radiation", Field::Shortwave, Quantity::Flux},
     {"solar_irradiance", Field::Shortwave, Quantity::Flux},
+    {"solar", Field::Shortwave, Quantity::Flux},
     {"slrw", Field::Shortwave, Quantity::Flux},
     {"ghi", Field::Shortwave, Quantity::Flux},
     {"sw_net", Field::NetShortwave, Quantity::Flux},
@@ -286,6 +287,24 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
     return false;
 }
 
+// What a name without a unit is taken for.
+std::string_view unit_unsaid(Quantity quantity)
+{
+    switch (quantity) {
+        case Quantity::Temperature: return "C";
+        case Quantity::Speed: return "m/s";
+        case Quantity::Pressure: return "Pa";
+        case Quantity::Flux: return "W/m2";
+        case Quantity::Fraction: return "a share of 1";
+        case Quantity::Precipitation: return "mm";
+        case Quantity::Length: return "m";
+        case Quantity::Water: return "mm of water";
+        case Quantity::Percent:
+        case Quantity::Degrees: break;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::optional<ColumnMeaning> column_meaning(std::string_view name, std::string_view unit)
@@ -326,7 +345,7 @@ std::optional<ColumnMeaning> column_meaning(std::string_view name, std::string_v
     }
     // Short names stand for many things: a unit must say which.
     if (given.empty()) {
-        for (const char* n : {"sw", "lw", "ws", "bp", "tair", "t_air"})
+        for (const char* n : {"sw", "lw", "ws", "bp", "tair", "t_air", "solar"})
             if (low == n) return std::nullopt;
     }
     for (const Name& known : kNames) {
@@ -338,7 +357,10 @@ std::optional<ColumnMeaning> column_meaning(std::string_view name, std::string_v
         m = {};
         m.field = known.field;
         const std::string u = plain_unit(rest.empty() ? std::string_view(given) : rest.substr(1));
-        if (unit_factor(known.quantity, u, m)) return m;
+        if (unit_factor(known.quantity, u, m)) {
+            if (u.empty()) m.assumed_unit = unit_unsaid(known.quantity);
+            return m;
+        }
         if (!rest.empty()) continue;  // "precip_temp": a longer, unknown name
         throw Error(
             "weather: column '" + shown(name) + "': the unit '" + shown(given) + "' is not known",

@@ -16,6 +16,8 @@ struct ColumnMeaning {
     bool snow_depth_cm = false;
     bool percent_snow = false;     ///< not a field: the snow share of the precipitation column
     bool vapour_pressure = false;  ///< not a field: becomes relative humidity
+    /// The unit that was taken as the name says none: "C"; empty where it says one, or there is but one.
+    std::string_view assumed_unit{};
 };
 
 /// Meaning of a column from its name with the unit inside it ("air_temp_c", "wind (km/h)",
