@@ -68,11 +68,58 @@ struct PlaceAnswer {
     Exposure open;
 };
 
+#ifdef LOOKS_LATER
+// Few points beside patches look to the sky, and a CPU takes for all what one of a group asks. So a shader that says LOOKS_LATER
+// leaves such a point alone, answers all that wait at once and shades them again (surface_resolve.comp.glsl).
+bool later() { return LANES != 0u && PLACE != 0u && WATER != 0u && (WATER & WATER_BEADS) == 0u; }  // beads ask at two points
+struct SkyLook {
+    bool asked;  // by the point that was shaded last: what it has is not known
+    bool known;  // what the point that is shaded has
+    vec3 position;
+    vec3 normal;
+    ivec2 pixel;
+    Exposure open;
+};
+SkyLook sky_look;
+
+void look_to_sky()
+{
+    SurfaceInput at;
+    at.position = sky_look.position;
+    at.normal = sky_look.normal;
+    at.pixel = sky_look.pixel;
+    sky_look.open = exposure_to_sky(at);
+    sky_look.known = sky_look.asked;
+}
+
+PlaceAnswer place_answer_or_later(SurfaceInput at, uint number, bool beyond)
+{
+    const bool looks = beyond && shelters_are_known();
+    const int from = int(frame.place.grid.patches * kPlaceTexels) + (number == kNoPatch ? 0 : int(number) * PLACE_STATE_TEXELS);
+    PlaceAnswer answer;
+    answer.first = uintBitsToFloat(texelFetch(place_states, from));
+    answer.second = uintBitsToFloat(texelFetch(place_states, from + 1));
+    answer.last = uintBitsToFloat(texelFetch(place_states, from + 3));
+    answer.open = Exposure(1.0, 1.0, 1.0);
+    if (looks) answer.open = sky_look.open;
+    sky_look.asked = looks && !sky_look.known;
+    if (sky_look.asked) {
+        sky_look.position = at.position;
+        sky_look.normal = at.normal;
+        sky_look.pixel = at.pixel;
+    }
+    return answer;
+}
+#endif
+
 // number: of a state, kNoPatch for none; beyond: how open it is to the sky is asked. Where rain comes from lies behind the states
 // (place_falls_io.h), since words of a uniform block cost a CPU several times as much once their number is known as the shader runs
 // alone. So a turn of one loop reads five texels either way, and a group of pixels that all have a patch, as most do, reads no others.
 PlaceAnswer place_answer(SurfaceInput at, uint number, bool beyond)
 {
+#ifdef LOOKS_LATER
+    if (later()) return place_answer_or_later(at, number, beyond);
+#endif
     const bool looks = beyond && shelters_are_known();
     const float none = looks ? 0.0 : 1.0;
     PlaceAnswer answer;

@@ -4,8 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #define FRAME_BY_WORDS
+#define LOOKS_LATER
 #include "gpu/passes/surface_resolve/surface_resolve_io.h"
 
 layout(constant_id = RESOLVE_SPEC_WEATHER) const uint SURFACE_WEATHER = 1u;
@@ -190,6 +192,7 @@ void shade(uint at_list)
     if (SHAPES != 0u && more.z != 0u) shape_point(s, draw, id.y);
 
     SurfaceData data = evaluate_surface(s);
+    if (later() && sky_look.asked) return;
     if (SHAPES != 0u && more.z != 0u) data.texel.occlusion *= shape_decode(id.y).z;
     const bool shape = SHAPES != 0u && more.z != 0u;
     if (VERTEX_LIGHT != 0u && !shape) add_vertex_light(data.texel, lit_at_vertices(draw, numbers, at, side));
@@ -208,18 +211,44 @@ void shade(uint at_list)
     if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares, kind_of_shares()));
 }
 
+bool of_any(bool lane) { return subgroupBallot(lane).x != 0u; }
+
 // A CPU has one invocation a lane for all pixels of a group: its constants are read once for them.
 void main()
 {
     read_constants();
     // A list ends where listing left its counter; it begins where the one before ends.
+    const uint group = LANES != 0u ? RESOLVE_CPU_GROUP : RESOLVE_GROUP;
     const int number = int(params.list);
-    const uint begin = number > 0 ? texelFetch(ends, number - 1).r : 0u;
-    const uint end = texelFetch(ends, number).r;
-    uint at_list = begin + gl_WorkGroupID.x * RESOLVE_GROUP + gl_LocalInvocationID.x;
-    uint turns = RESOLVE_GROUP / gl_WorkGroupSize.x;
+    const uint begin = (number > 0 ? texelFetch(ends, number - 1).r : 0u) + gl_WorkGroupID.x * group;
+    const uint end = min(texelFetch(ends, number).r, begin + group);
+    uint at_list = begin + gl_LocalInvocationID.x;
+    if (later()) {
+        sky_look.asked = false;
+        sky_look.position = vec3(0.0);
+        sky_look.normal = vec3(0.0, 1.0, 0.0);
+        sky_look.pixel = ivec2(0);
+        // Both loops end for all lanes at once. Nothing but a loop's end skips code on a CPU: the outer turns are few.
+        bool more = true;
+        do {
+            look_to_sky();
+            bool asked = false;
+            do {
+                if (at_list < end) {
+                    shade(at_list);
+                    if (!sky_look.asked) {
+                        at_list += gl_WorkGroupSize.x;
+                        sky_look.known = false;
+                    }
+                }
+                asked = of_any(sky_look.asked);
+                more = of_any(at_list < end);
+            } while (more && !asked);
+        } while (more);
+        return;
+    }
     do {
         if (at_list < end) shade(at_list);
         at_list += gl_WorkGroupSize.x;
-    } while (--turns > 0u && at_list < end);
+    } while (at_list < end);
 }

@@ -167,7 +167,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                           .constants = {},
                           .bindings = {{TILE_OFFSETS_COUNTS, storage_buffer(counts)},
                                        {TILE_OFFSETS_GROUPS, storage_buffer(*tables.groups)}},
-                          .push = PushBlock(shared::TileOffsetsParams{2 * materials}),
+                          .push = PushBlock(shared::TileOffsetsParams{2 * materials, targets.lanes != 0 ? std::uint32_t{RESOLVE_CPU_GROUP} : std::uint32_t{RESOLVE_GROUP}}),
                           .groups = {}});
     bin(1);
 

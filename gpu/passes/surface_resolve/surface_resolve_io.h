@@ -12,6 +12,7 @@
 
 #define RESOLVE_TILE 8  // pixels a side, of the tiles that are listed
 #define RESOLVE_GROUP 64  // pixels that a workgroup shades
+#define RESOLVE_CPU_GROUP 256  // of a CPU, which reads constants once for all of them
 #define RESOLVE_TILE_MATERIALS 64
 
 // Texels (RGBA32UI) of one draw in the table of draws: the rows of its two transforms, then
@@ -61,6 +62,7 @@ struct TileMaterialsParams {
 
 struct TileOffsetsParams {
     uint lists;
+    uint group;  // pixels that a workgroup shades
 };
 
 struct SurfaceResolveParams {

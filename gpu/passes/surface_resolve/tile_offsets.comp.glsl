@@ -16,7 +16,7 @@ void main()
         const uint pixels = counts[i];
         counts[i] = begin;
         begin += pixels;
-        groups[3u * i] = (pixels + RESOLVE_GROUP - 1u) / RESOLVE_GROUP;
+        groups[3u * i] = (pixels + params.group - 1u) / params.group;
         groups[3u * i + 1u] = 1u;
         groups[3u * i + 2u] = 1u;
     }
