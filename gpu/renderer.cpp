@@ -545,7 +545,10 @@ RenderResult Renderer::Impl::render(const Frame& frame, const Frame& whole, Targ
         scene->update_draw_rows(device);
         FrameGraph graph = build_frame(frame, sun, resources, aov_groups, range, result.falling);
         graph_text += graph.describe();
-        if (std::exchange(metering_ended, false)) pipelines.keep_only(graph.pipelines());
+        if (std::exchange(metering_ended, false)) {
+            pipelines.keep_only(graph.pipelines());
+            give_back_free_memory();  // the picture need not make many of its own
+        }
         for (const PassTime& pass : graph.execute(device, pipelines, descriptors))
             result.passes.push_back(pass);
     }

@@ -92,15 +92,6 @@ VkRenderingAttachmentInfo attachment_info(const Attachment& attachment, Use use)
     return info;
 }
 
-// To the system. A frame takes its memory beside what the making of its pipelines has left, and so would what
-// comes behind it.
-void give_back_free_memory()
-{
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-}
-
 void record_draws(const DrawPass& pass, VkCommandBuffer commands, PipelineCache& pipelines,
                   DescriptorArena& descriptors)
 {
@@ -144,6 +135,13 @@ void record_dispatch(const ComputePass& pass, VkCommandBuffer commands, Pipeline
 }
 
 }  // namespace
+
+void give_back_free_memory()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
 
 Groups groups_over(int width, int height, int tile, int layers)
 {

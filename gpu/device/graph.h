@@ -158,6 +158,10 @@ private:
     const Pipeline* pipeline_ = nullptr;
 };
 
+/// To the system. A frame takes its memory beside what the making of its pipelines has left, and so would what
+/// comes behind it.
+void give_back_free_memory();
+
 /// Passes of one frame, run in the order they were added. Every barrier and layout is derived from
 /// what the passes bind, attach and transfer.
 class FrameGraph {

@@ -4,6 +4,7 @@
 #define PETRICHOR_GPU_FRAME_PIXEL_LIST_IO_H
 
 #define PIXEL_LIST_SPEC 90     // 0: all pixels; 1: by the list; 2: by the list, which has tiles
+#define PIXEL_LIST_SPEC_INVOCATIONS 91  // of a workgroup, where a pass leaves it open: PIXEL_LIST_GROUP, or the lanes of a CPU, which take turns
 #define PIXEL_LIST_ALL 0xffffffffu    // in place of how many: all, after all
 #define PIXEL_LIST_TILES 0xfffffffeu  // .. as many tiles as there are groups
 #define PIXEL_LIST_TILE 8

@@ -13,6 +13,7 @@
 #define LIGHTING_MODEL_BURLEY 5
 #define LIGHTING_MODEL_SKIN 7
 #define LIGHTING_MODEL_HAIR 8
+#define LIGHTING_MODEL_UNLIT_SHADOWED 9
 
 #ifndef __cplusplus
 #include "gpu/lighting/models/burley.glsl"

@@ -82,12 +82,25 @@ TEST_F(ManyLights, OnOneSpotTheySumUp)
     light.position_m = {0, 2, 0};
     light.intensity = 1.0f;
     frame.extra_lights = {light};
-    const float one = pixel(renderer->render(frame), 8, 4).g;
-    for (const std::size_t many : {1000, 20000, 40000}) {
+    // The last row of a group of pixels: what shades them in turns comes there with all loops of the others behind it.
+    const float one = pixel(renderer->render(frame), 8, 7).g;
+    for (const std::size_t many : {1000, 4000, 20000, 40000}) {
         frame.extra_lights.assign(many, light);
-        const float sum = pixel(renderer->render(frame), 8, 4).g;
+        const float sum = pixel(renderer->render(frame), 8, 7).g;
         EXPECT_NEAR(sum / (one * static_cast<float>(many)), 1.0f, 0.01f) << many;
     }
+    // Taken apart they are walked once more.
+    frame.settings.aovs = {"diffuse_direct"};
+    for (const std::size_t many : {500, 4000}) {
+        frame.extra_lights.assign(many, light);
+        const RenderResult parts = renderer->render(frame);
+        const float whole = pixel(parts, 8, 7).g;
+        EXPECT_NEAR(whole / (one * static_cast<float>(many)), 1.0f, 0.01f) << many;
+        const std::vector<float>& scattered = parts.aovs.front().pixels;
+        EXPECT_GT(scattered[(7 * 16 + 8) * 3 + 1], 0.5f * whole) << many;
+        EXPECT_LE(scattered[(7 * 16 + 8) * 3 + 1], whole) << many;
+    }
+    frame.settings.aovs.clear();
     frame.extra_lights.assign(59000, light);
     EXPECT_THROW(renderer->render(frame), Error) << "drivers cut longer loops short";
 }

@@ -123,18 +123,9 @@ LitPoint mirroring_part(LitPoint p)
 #include "gpu/passes/lighting/snow_sparkle.glsl"
 #include "gpu/passes/lighting/mirror_list.glsl"
 
-void main()
+// inside: of the picture; where all stay for each other others come, too
+void light_pixel(ivec2 texel, bool inside)
 {
-    read_frame();
-    read_sky_light();
-    read_probes();
-    ivec2 texel;
-    const bool inside = this_pixel(frame.size, texel);
-    if (TOGETHER) {
-        texel = min(texel, frame.size - 1);  // all stay, for each other
-    } else if (!inside) {
-        return;
-    }
     const vec2 pixel = vec2(texel) + 0.5;
     const float depth = texelFetch(depth_rows, row_texel(texel, frame.size)).r;
     const bool there = inside && depth > 0.0;
@@ -553,20 +544,43 @@ void main()
             mirror.rgb *= kept;
         }
     }
-    if (!there) return;  // it is the background's
-    if (PARTS != 0u) {
-        limit_parts(parts, radiance, vec3(60000.0));
-        store_parts(parts, texel);
-    }
-    const vec4 result = vec4(min(radiance, vec3(60000.0)), 1.0);
-    if (IMAGE_BASED_LIGHT != 0u) {
-        imageStore(radiance_out, texel, result);
-        const bool mirrors = mirror.r + mirror.g + mirror.b > 0.0;
-        if (mirrors) {  // no other is read
-            imageStore(mirror_weight, texel, mirror);
-            imageStore(mirror_shape, texel, shape);
+    if (there) {  // else it is the background's
+        if (PARTS != 0u) {
+            limit_parts(parts, radiance, vec3(60000.0));
+            store_parts(parts, texel);
         }
-        list_mirror(mirrors, texel);
+        const vec4 result = vec4(min(radiance, vec3(60000.0)), 1.0);
+        if (IMAGE_BASED_LIGHT != 0u) {
+            imageStore(radiance_out, texel, result);
+            const bool mirrors = mirror.r + mirror.g + mirror.b > 0.0;
+            if (mirrors) {  // no other is read
+                imageStore(mirror_weight, texel, mirror);
+                imageStore(mirror_shape, texel, shape);
+            }
+            list_mirror(mirrors, texel);
+        }
+        imageStore(accumulated, texel, frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
     }
-    imageStore(accumulated, texel, frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
+}
+
+// A CPU has one invocation a lane for all pixels of a group, where the lights are not too many: constants are read once for them.
+void main()
+{
+    read_frame();
+    read_sky_light();
+    read_probes();
+    uint number = gl_LocalInvocationID.x;
+    uint turns = PIXEL_LIST_GROUP / gl_WorkGroupSize.x;
+    bool goes_on;
+    do {
+        ivec2 texel;
+        const bool inside = this_pixel(number, frame.size, texel);
+        if (TOGETHER) {
+            light_pixel(min(texel, frame.size - 1), inside);  // all stay, for each other
+        } else if (inside) {
+            light_pixel(texel, true);
+        }
+        number += gl_WorkGroupSize.x;
+        goes_on = --turns > 0u && (LISTED != 1u || inside);
+    } while (goes_on);
 }

@@ -4,7 +4,10 @@
 
 #include "formulas/light/reflection_probe.h"
 #include "gpu/frame/frame_words_io.h"
+#include "gpu/frame/pixel_list_io.h"
+#include "gpu/lighting/models_io.h"
 #include "gpu/passes/lighting/lighting_io.h"
+#include "gpu/passes/lights/light_turns.h"
 #include "gpu/passes/sky/sky_light_io.h"
 
 namespace petrichor::gpu {
@@ -15,6 +18,19 @@ static_assert(sizeof(shared::SkyLight) == 4 * 62 && offsetof(shared::SkyLight, m
               offsetof(shared::SkyLight, exposure) == 4 * 60);
 static_assert(sizeof(shared::ProbeSpread) == 4 * 48 && offsetof(shared::ProbeSpread, low) == 4 * 4 &&
               offsetof(shared::ProbeSpread, high) == 4 * 8 && offsetof(shared::ProbeSpread, bands) == 4 * 12);
+
+namespace {
+
+// Invocations of a group: those of a CPU take its pixels in turns, unless they might walk more lights than its loops can.
+std::uint32_t invocations(const FrameTargets& targets, const LightTable& lights, const LightingVariant& variant)
+{
+    const auto shows = [&](std::size_t model) { return model < variant.models.size() && variant.models[model]; };
+    const bool again = variant.split || variant.gathers || shows(LIGHTING_MODEL_UNLIT_SHADOWED);
+    const bool in_turns = targets.lanes != 0 && lights.count <= (again ? kLightsInTurnsAgain : kLightsInTurns);
+    return in_turns ? targets.lanes : PIXEL_LIST_GROUP;
+}
+
+}  // namespace
 
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, LightTables& light_tables, SkyMaps& sky,
@@ -27,6 +43,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         .name = "lighting",
         .shader = variant.shader,
         .constants = {{FRAME_SPEC_LANES, targets.lanes},
+                      {PIXEL_LIST_SPEC_INVOCATIONS, invocations(targets, lights, variant)},
                       {LIGHTING_SPEC_WEATHER, variant.weather ? targets.weather_kept() : WEATHER_DRY},
                       {LIGHTING_SPEC_SHADOWS, variant.shadows},
                       {LIGHTING_SPEC_IMAGE_BASED_LIGHT, variant.image_based_light},

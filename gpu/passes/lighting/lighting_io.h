@@ -2,7 +2,6 @@
 #ifndef PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_IO_H
 #define PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_IO_H
 
-#define LIGHTING_TILE 8
 #define LIGHTING_MOST_PROBES 8
 
 // Specialization constants: 0 leaves the part out of the compiled shader.

@@ -1,5 +1,5 @@
 // What the lighting pass is told: the constants of its variants, the frame, textures, tables, what it writes.
-layout(local_size_x = LIGHTING_TILE, local_size_y = LIGHTING_TILE) in;
+layout(local_size_x_id = PIXEL_LIST_SPEC_INVOCATIONS) in;
 layout(constant_id = LIGHTING_SPEC_WEATHER) const uint WEATHER = 1u;
 layout(constant_id = LIGHTING_SPEC_SHADOWS) const uint SHADOWS = 1u;
 layout(constant_id = LIGHTING_SPEC_IMAGE_BASED_LIGHT) const uint IMAGE_BASED_LIGHT = 1u;

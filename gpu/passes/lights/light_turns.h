@@ -23,6 +23,11 @@ inline constexpr std::size_t kMostLightTurns = 64000;
 /// So few lights fit wherever they stand.
 inline constexpr std::size_t kLightsAnywhere = 34000;
 
+/// .. where an invocation lights eight pixels in turns, so few where it walks the lights once, or again for what is taken apart,
+/// gathered or left by shadows.
+inline constexpr std::size_t kLightsInTurns = 4000;
+inline constexpr std::size_t kLightsInTurnsAgain = 500;
+
 /// Where lights crowd. Of each ball a rectangle of coarse tiles is taken that holds all of it, so what is said is
 /// never too little.
 ///
