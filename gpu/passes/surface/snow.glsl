@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_SNOW_GLSL
 #define PETRICHOR_SURFACE_SNOW_GLSL
 
+#include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
 #include "formulas/weather/land_relief.h"
 #include "formulas/weather/snow_in_turf.h"
