@@ -37,6 +37,10 @@ constexpr float kOutermostRing = 1150.0f, kLeastOutermost = 300.0f, kHorizon_m =
 constexpr float kFarRing = 2.5f;   // likewise of rings beyond the fine ones
 constexpr float kClose = 0.025f;   // of the scene's size: ground so close below it is left out where it is hidden
 const vec3 kColor(0.150f, 0.150f, 0.149f);
+// Asphalt as far as a yard goes, or a few widths of what stands there; then grass: asphalt out to the horizon is a grey sea. Its rim runs in and out.
+constexpr float kYard_m = 24.0f, kYardWidths = 6.0f, kRimBend = 0.16f;
+constexpr float kMostYard = 250.0f;  // times the scene's size: of a smaller thing all that is in sight is asphalt
+const vec3 kGrass(0.095f, 0.118f, 0.047f);
 
 // Calls back with each of `cells` times `cells` cells that a triangle covers when seen from above.
 template <class Covers>
@@ -262,6 +266,37 @@ float stains(const vec2& at, float around)
     return std::clamp(tone, 0.6f, 1.4f);
 }
 
+// Over the radius of a ring, so many of the rim's: at the rim it runs in and out, and less the farther from there.
+float bent_ring(float ring, const vec2& way)
+{
+    const auto octave = [&](float wide, std::uint32_t salt) { return shared::tileable_noise(wide * way + 53.1f, 1024, salt) - 0.5f; };
+    const float bend = octave(1.3f, 541) + 0.5f * octave(4.1f, 542) + 0.25f * octave(11.0f, 543);
+    const float near = 1.0f - glm::smoothstep(0.0f, 1.2f, std::abs(std::log(ring)));
+    return 1.0f + kRimBend * near * bend;
+}
+
+// Grass around the yard, told by its name: it holds water on its blades, and has the fields and hedges of wide ground.
+scene::Material meadow(const scene::Material& yard)
+{
+    scene::Material grass;
+    grass.name = "default meadow";
+    grass.base_color = glm::vec4(kGrass, 1.0f);
+    grass.metallic = 0.0f;
+    grass.roughness = 0.9f;
+    grass.normal_texture = yard.normal_texture;
+    return grass;
+}
+
+void lay_backdrop(scene::Scene& scene, const char* name, scene::Primitive ground)
+{
+    scene::Instance instance;
+    instance.name = name;
+    instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
+    instance.backdrop = true;
+    scene.meshes.push_back({name, {std::move(ground)}});
+    scene.instances.push_back(std::move(instance));
+}
+
 // The ground without what of it is hidden, as far as some halvings of its sides tell that. A side is halved for both of its
 // triangles: corners of one within a side of the other would be the ends of snow.
 scene::Primitive seen_part(scene::Primitive disc, const HiddenGround& hidden)
@@ -317,47 +352,68 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
     const float tile_m = lay_asphalt(scene, material);
 
     scene::Primitive disc;
+    const float yard = std::max(kYard_m / around, kYardWidths);
+    const bool has_rim = yard < kMostYard;
+    const auto grass = static_cast<std::uint32_t>(scene.materials.size());
+    if (has_rim) scene.materials.push_back(meadow(material));
     disc.material = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back(std::move(material));
-    const auto add = [&](const vec2& offset) {
+    const auto add = [&](const vec2& offset, float tone) {
         disc.positions.push_back(centre + vec3(offset.x, 0.0f, offset.y));
         disc.normals.emplace_back(0.0f, 1.0f, 0.0f);
         disc.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
         // v runs towards +z below: the bitangent of +x and +y up is -z.
         disc.uv0.push_back(place_on_square(offset, tile_m));
-        disc.colors.emplace_back(vec3(stains(offset, around)), 1.0f);
+        disc.colors.emplace_back(vec3(tone), 1.0f);
     };
-    add(vec2(0.0f));
+    add(vec2(0.0f), stains(vec2(0.0f), around));
     std::vector<float> rings;
-    for (float ring = kInnerRing; ring < kFineRings; ring *= kNextRing) rings.push_back(ring);
+    const float fine = has_rim ? std::max(kFineRings, yard) : kFineRings;
+    for (float ring = kInnerRing; ring < fine; ring *= kNextRing) rings.push_back(ring);
     const float outermost = std::clamp(kHorizon_m / around, kLeastOutermost, kOutermostRing);
-    for (float ring = kFineRings; ring < outermost; ring *= kFarRing) rings.push_back(ring);
+    std::size_t rim = rings.size();
+    if (has_rim) {
+        rim = static_cast<std::size_t>(std::lower_bound(rings.begin(), rings.end(), yard) - rings.begin());
+        if (rim == rings.size()) rings.push_back(yard);
+        for (float ring = kFarRing * rings.back(); ring < outermost; ring *= kFarRing) rings.push_back(ring);
+    } else {
+        for (float ring = kFineRings; ring < outermost; ring *= kFarRing) rings.push_back(ring);
+    }
     rings.push_back(outermost);
-    for (const float ring : rings) {
+    for (std::size_t r = 0; r < rings.size(); ++r) {
         for (int s = 0; s < kSegments; ++s) {
             const float angle = 6.2831853f * static_cast<float>(s) / kSegments;
-            add(ring * around * vec2(std::cos(angle), std::sin(angle)));
+            const vec2 way(std::cos(angle), std::sin(angle));
+            const vec2 at = (rings[r] * (has_rim ? bent_ring(rings[r] / rings[rim], way) : 1.0f)) * around * way;
+            add(at, stains(at, around));
         }
     }
     const auto at = [](std::size_t ring, int s) {
         return static_cast<std::uint32_t>(1 + ring * kSegments +
                                           static_cast<std::size_t>(s % kSegments));
     };
-    const auto lay = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { disc.indices.insert(disc.indices.end(), {a, b, c}); };
+    std::vector<std::uint32_t> beyond;  // triangles of grass
+    const auto lay = [&](std::size_t ring, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        auto& to = ring >= rim && has_rim ? beyond : disc.indices;
+        to.insert(to.end(), {a, b, c});
+    };
     for (int s = 0; s < kSegments; ++s) {
-        lay(0u, at(0, s + 1), at(0, s));
+        lay(0, 0u, at(0, s + 1), at(0, s));
         for (std::size_t ring = 0; ring + 1 < std::size(rings); ++ring) {
-            lay(at(ring, s), at(ring, s + 1), at(ring + 1, s));
-            lay(at(ring, s + 1), at(ring + 1, s + 1), at(ring + 1, s));
+            lay(ring, at(ring, s), at(ring, s + 1), at(ring + 1, s));
+            lay(ring, at(ring, s + 1), at(ring + 1, s + 1), at(ring + 1, s));
         }
     }
+    if (has_rim) {
+        scene::Primitive land = disc;
+        land.material = grass;
+        land.indices = std::move(beyond);
+        // Grass has no mirrors.
+        land.weather.assign(land.positions.size(), glm::vec4(1.0f, 0.0f, 1.0f, 1.0f));
+        lay_backdrop(scene, "default land", std::move(land));
+    }
     disc = seen_part(std::move(disc), HiddenGround(scene, content, centre.y, kClose * around));
-    scene::Instance instance;
-    instance.name = "default ground";
-    instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-    instance.backdrop = true;
-    scene.meshes.push_back({"default ground", {std::move(disc)}});
-    scene.instances.push_back(std::move(instance));
+    lay_backdrop(scene, "default ground", std::move(disc));
 }
 
 }  // namespace petrichor::film

@@ -11,7 +11,8 @@ namespace petrichor::film {
 bool brings_ground(const scene::Scene& scene, const scene::Bounds& content);
 
 /// Lays level ground below a scene, out to the horizon, as a backdrop. Water and snow lie on it as on
-/// any material; it is asphalt of some years (texproc/generate). The material is named "default ground".
+/// any material. It is a yard of asphalt of some years (texproc/generate; "default ground"), 24 m or six of the scene's half
+/// diagonals around, in a meadow ("default meadow"); below what is smaller than 20 cm all of it is asphalt.
 void add_ground(scene::Scene& scene, const scene::Bounds& content);
 
 }  // namespace petrichor::film

@@ -18,8 +18,27 @@ SHARED_FN float turf_holds(float up) { return smooth_edge(0.5f, 0.866f, up); }
 //   flatter  as SlopeRelief: 0 on what has none
 SHARED_FN float snow_in_turf(float lies, float mask, float flatter)
 {
-    const float uneven = 1.0f + 1.1f * (mask - 0.7067f) + 0.30f * clamp(flatter, -2.0f, 2.0f);
-    return 0.85f * saturate(1.35f * lies * max(uneven, 0.0f));
+    const float uneven = 1.0f + 1.1f * (mask - 0.7067f) + 0.75f * clamp(flatter, -2.0f, 2.0f);
+    return 0.85f * saturate(1.35f * lies * max(uneven, 0.25f));
+}
+
+// What lies on a slope over what a flat triangle of the same place holds: that goes by the way it faces and by what it sees of the sky,
+// and so does the ground, which is bent where the mesh has an edge. Without it snow ends along the edges of triangles. up: y of the normal.
+SHARED_FN float snow_of_bend(float smooth_up, float flat_up)
+{
+    const float bent = max(smooth_up, 0.1f), plane = max(flat_up, 0.1f);
+    return clamp(bent * (1.0f + bent) / (plane * (1.0f + plane)), 0.5f, 2.0f);
+}
+
+// The same over its mean: terraces and tufts hold what the steps between them shed, until all is filled. 1 in the mean.
+SHARED_FN float snow_of_relief(float flatter, float amount) { return 1.0f + 0.4f * (1.0f - amount) * clamp(flatter, -2.0f, 2.0f); }
+
+// Grass in snow: blades are bent down, and soil and dead leaves show between them. around: SnowCover::melt. Ours, by eye.
+SHARED_FN vec3 turf_in_winter(vec3 base, float around)
+{
+    const float grey = dot(base, vec3(0.30f, 0.59f, 0.11f));
+    const float green = smooth_edge(1.0f, 1.3f, base.y / max(max(base.x, base.z), 1.0e-4f));
+    return mix(base, grey * vec3(0.86f, 0.72f, 0.46f), 0.75f * green * saturate(8.0f * around));
 }
 
 // Both kinds: where the one is bare the other shows.

@@ -24,7 +24,10 @@ constexpr float kOut_m = 0.015f;        // drops fall so far before the edge
 constexpr float kUp_m = 0.004f;
 constexpr float kRing_m = 0.01f;
 constexpr float kRingDepth = 0.06f;     // of the radius
-constexpr float kLeastShare = 0.35f, kMostShare = 0.92f;
+// Of the length of one that the water never left. Rivulets change their ways every few hands, so some have had most of it and their neighbours little, and
+// longer parts of an eave are fed better than others. In the world, so that all of one eave agree.
+constexpr float kLeastShare = 0.08f, kMostShare = 0.92f;
+constexpr float kFed_m = 0.8f, kFedFiner_m = 0.27f;
 constexpr std::uint32_t kMostTriangles = 300'000;  // then all are coarser
 constexpr const char* kName = "icicles";
 
@@ -48,6 +51,13 @@ int rings_of(const Icicle& icicle)
 float number_of(std::uint32_t number, std::uint32_t which)
 {
     return shared::hash_f(number + 77u * (which + 1u));
+}
+
+float share_of(const DripPoint& point)
+{
+    const float fed = 0.6f * shared::endless_noise_3(point.from_m / kFed_m, 611u) + 0.4f * shared::endless_noise_3(point.from_m / kFedFiner_m + 3.7f, 613u);
+    const float well = glm::smoothstep(0.3f, 0.7f, fed);
+    return glm::mix(kLeastShare, kMostShare, std::min(number_of(point.number, 2) * (0.4f + well), 1.0f));
 }
 
 // Of the round profile and its rings, at a way down from the root.
@@ -79,7 +89,7 @@ Icicles hung(std::span<const DripPoint> points, std::span<const vec3> eyes_m, st
         one.root_m = point.from_m - vec3(point.out.x, 0.0f, point.out.y) * kOut_m + vec3(0.0f, kUp_m, 0.0f);
         one.lean = (glm::vec2(number_of(point.number, 0), number_of(point.number, 1)) - 0.5f) * (2.0f * kLean);
         one.drained_m2 = point.drained_m2;
-        one.share = glm::mix(kLeastShare, kMostShare, number_of(point.number, 2));
+        one.share = share_of(point);
         one.most_m = std::clamp(point.from_m.y - point.ground_m - kClear_m, 0.0f, kLongestIcicle_m);
         one.shortest_m = std::max(kShortestIcicle_m, kUnseen * near_m);
         one.turn = kTurn * number_of(point.number, 3);

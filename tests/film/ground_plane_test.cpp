@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -78,20 +80,60 @@ TEST(GroundPlane, LiesBelowTheSceneAndLeavesItsBoundsAlone)
     EXPECT_EQ(before.low, after.low);
     EXPECT_EQ(before.high, after.high);
     ASSERT_TRUE(alone.instances.back().backdrop);
-    const scene::Primitive& disc = alone.meshes.back().primitives[0];
     float reach = 0.0f;
-    for (std::size_t i = 0; i + 2 < disc.indices.size(); i += 3) {
-        const glm::vec3& a = disc.positions[disc.indices[i]];
-        const glm::vec3& b = disc.positions[disc.indices[i + 1]];
-        const glm::vec3& c = disc.positions[disc.indices[i + 2]];
-        EXPECT_GT(glm::cross(b - a, c - a).y, 0.0f) << "faces up";
-        EXPECT_LT(a.y, 2.0f);
-        EXPECT_GT(a.y, 1.99f) << "and touches what stands on it";
-        reach = std::max({reach, glm::length(a), glm::length(b), glm::length(c)});
+    for (const std::size_t mesh : {alone.meshes.size() - 2, alone.meshes.size() - 1}) {
+        const scene::Primitive& part = alone.meshes[mesh].primitives[0];
+        for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3) {
+            const glm::vec3& a = part.positions[part.indices[i]];
+            const glm::vec3& b = part.positions[part.indices[i + 1]];
+            const glm::vec3& c = part.positions[part.indices[i + 2]];
+            EXPECT_GT(glm::cross(b - a, c - a).y, 0.0f) << "faces up";
+            EXPECT_LT(a.y, 2.0f);
+            EXPECT_GT(a.y, 1.99f) << "and touches what stands on it";
+            reach = std::max({reach, glm::length(a), glm::length(b), glm::length(c)});
+        }
     }
     EXPECT_GT(reach, 100.0f * glm::length(before.high - before.low));
     EXPECT_EQ(alone.materials.back().name, "default ground");
     EXPECT_EQ(alone.textures.size(), 3u);
+}
+
+// The yard ends in grass, and no crack is between them: each side at the rim of the one is a side of the other.
+TEST(GroundPlane, IsAYardInAMeadow)
+{
+    using Side = std::array<float, 4>;
+    const auto rim_of = [](const scene::Primitive& part) {
+        std::set<Side> open;
+        for (std::size_t k = 0; k < part.indices.size(); ++k) {
+            const glm::vec3& a = part.positions[part.indices[k]];
+            const glm::vec3& b = part.positions[part.indices[k % 3 == 2 ? k - 2 : k + 1]];
+            if (open.erase({b.x, b.z, a.x, a.z}) == 0) open.insert({a.x, a.z, b.x, b.z});
+        }
+        return open;
+    };
+    scene::Scene alone = scene_of({box({-1, 2, -1}, {1, 5, 1})});
+    add_ground(alone, content_bounds(alone));
+    const scene::Primitive& land = alone.meshes[alone.meshes.size() - 2].primitives[0];
+    const scene::Primitive& yard = alone.meshes.back().primitives[0];
+    EXPECT_EQ(alone.materials[land.material].name, "default meadow");
+    EXPECT_EQ(alone.materials[yard.material].name, "default ground");
+    std::set<Side> around = rim_of(land);
+    float nearest = 1.0e9f, farthest = 0.0f;
+    for (const Side& side : rim_of(yard)) {
+        const float out = std::hypot(side[0], side[1]);
+        if (out < 10.0f) continue;  // below the box
+        EXPECT_EQ(around.erase({side[2], side[3], side[0], side[1]}), 1u);
+        nearest = std::min(nearest, out);
+        farthest = std::max(farthest, out);
+    }
+    EXPECT_GT(nearest, 18.0f);
+    EXPECT_LT(farthest, 32.0f);
+    EXPECT_GT(farthest / nearest, 1.05f) << "it runs in and out";
+    for (const Side& side : around) EXPECT_GT(std::hypot(side[0], side[1]), 500.0f) << "the horizon";
+    // What is a finger high stands on asphalt, as far as one sees.
+    scene::Scene small = scene_of({box({-0.01f, 0, -0.01f}, {0.01f, 0.02f, 0.01f})});
+    add_ground(small, content_bounds(small));
+    EXPECT_EQ(small.materials.size(), scene_of({box({-1, 2, -1}, {1, 5, 1})}).materials.size() + 1);
 }
 
 // Patches cannot tell two sheets apart that are closer than they are wide: the dark one below a plate would show on it.

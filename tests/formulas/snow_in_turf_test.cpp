@@ -49,5 +49,49 @@ TEST(SnowInTurf, ShowsBesideTheClosedCover)
     EXPECT_EQ(with_snow_in_turf(cover, 0.3f).snow, 0.3f);
 }
 
+// A triangle of 55 degrees beside one of 35: at their edge the ground leans by 45, and holds one amount on both sides.
+TEST(SnowInTurf, IsOneAcrossTheEdgesOfTriangles)
+{
+    const auto up = [](float deg) { return glm::cos(glm::radians(deg)); };
+    const auto told = [&](float deg) { return up(deg) * (1.0f + up(deg)); };
+    EXPECT_NEAR(told(55.0f) * snow_of_bend(up(45.0f), up(55.0f)), told(35.0f) * snow_of_bend(up(45.0f), up(35.0f)), 1e-5f);
+    EXPECT_NEAR(snow_of_bend(up(50.0f), up(50.0f)), 1.0f, 1e-6f);
+    for (const float smooth : {-1.0f, 0.0f, 0.3f, 1.0f})
+        for (const float plane : {0.0f, 0.5f, 1.0f}) {
+            EXPECT_GE(snow_of_bend(smooth, plane), 0.5f);
+            EXPECT_LE(snow_of_bend(smooth, plane), 2.0f);
+        }
+}
+
+// Sub-patch detail: the depth of a slope is that which its patch says, in the mean.
+TEST(SnowInTurf, OfARuggedSlopeIsThatOfItsPatchInTheMean)
+{
+    for (const float amount : {0.1f, 0.5f, 0.9f}) {
+        double sum = 0.0, square = 0.0;
+        constexpr int kSide = 160;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            const glm::vec3 at(0.37f * static_cast<float>(i % kSide), 0.3f * static_cast<float>(i / kSide), 0.21f * static_cast<float>(i / kSide));
+            const auto share = static_cast<double>(snow_of_relief(slope_relief(at, 0.02f).flatter, amount));
+            sum += share;
+            square += share * share;
+        }
+        const double mean = sum / (kSide * kSide), deviation = glm::sqrt(square / (kSide * kSide) - mean * mean);
+        EXPECT_NEAR(mean, 1.0, 0.04) << amount;
+        EXPECT_GT(deviation, 0.25 * (1.0 - static_cast<double>(amount))) << amount;
+        EXPECT_LT(deviation, 0.45 * (1.0 - static_cast<double>(amount))) << amount;
+    }
+}
+
+TEST(SnowInTurf, GrassAroundItIsDullAndStoneIsNot)
+{
+    const glm::vec3 grass(0.12f, 0.30f, 0.05f), stone(0.30f, 0.29f, 0.27f);
+    EXPECT_EQ(turf_in_winter(grass, 0.0f), grass);
+    EXPECT_EQ(turf_in_winter(stone, 1.0f), stone);
+    const glm::vec3 dull = turf_in_winter(grass, 1.0f);
+    EXPECT_LT(dull.y, 0.75f * grass.y);
+    EXPECT_LT(dull.y / dull.x, 0.6f * grass.y / grass.x);
+    EXPECT_GT(dull.x, grass.x);
+}
+
 }  // namespace
 }  // namespace petrichor::shared

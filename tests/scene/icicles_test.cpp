@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "formulas/noise/noise.h"
 
@@ -132,7 +133,7 @@ TEST(Icicles, HangDownFromTheEdgeAndTouchNothingBelow)
     const auto points = edge(0.5f);
     const Icicles all = hang_icicles(points, {});
     for (const Icicle& one : all.icicles) {
-        const float length_m = icicle_length_m(one, all_of(1.2f));
+        const float length_m = icicle_length_m(one, all_of(2.6f));
         EXPECT_GT(length_m, 0.2f);
         EXPECT_LE(length_m, 0.41f);
         const Mesh3 m = mesh_of(one, length_m);
@@ -143,7 +144,7 @@ TEST(Icicles, HangDownFromTheEdgeAndTouchNothingBelow)
     }
     for (const Icicles::Part& part : all.parts) {
         for (std::uint32_t i = part.first; i < part.end; ++i) {
-            for (const vec3& p : mesh_of(all.icicles[i], icicle_length_m(all.icicles[i], all_of(1.2f))).positions) {
+            for (const vec3& p : mesh_of(all.icicles[i], icicle_length_m(all.icicles[i], all_of(2.6f))).positions) {
                 EXPECT_TRUE(glm::all(glm::greaterThanEqual(p, part.box.low)) && glm::all(glm::lessThanEqual(p, part.box.high)));
             }
         }
@@ -165,6 +166,37 @@ TEST(Icicles, DifferInLengthAndAreNoneWithoutIce)
     EXPECT_LT(least, 0.15f);
     EXPECT_GT(most, 0.25f);
     EXPECT_LT(most, 0.3f);
+}
+
+// No comb: their lengths are spread as widely as those of a drawing of lots, and longer parts of an eave are fed better than others,
+// far more than chance would have it.
+TEST(Icicles, HangInTuftsAsTheEaveIsFed)
+{
+    const Icicles all = hang_icicles(edge(3.0f, 2000), {});
+    std::vector<const Icicle*> row;
+    for (const Icicle& one : all.icicles) row.push_back(&one);
+    std::sort(row.begin(), row.end(), [](const Icicle* a, const Icicle* b) { return a->root_m.x < b->root_m.x; });
+    ASSERT_EQ(row.size(), 2000u);
+    double sum = 0.0, square = 0.0, parts = 0.0;
+    constexpr std::size_t kPart = 10;  // 0.4 m
+    for (std::size_t i = 0; i < row.size(); i += kPart) {
+        double part = 0.0;
+        for (std::size_t k = i; k < i + kPart; ++k) {
+            const auto share = static_cast<double>(row[k]->share);
+            EXPECT_GE(share, 0.0799);
+            EXPECT_LE(share, 0.9201);
+            part += share / kPart;
+            sum += share;
+            square += share * share;
+        }
+        parts += part * part;
+    }
+    const double n = static_cast<double>(row.size()), mean = sum / n, variance = square / n - mean * mean;
+    EXPECT_GT(mean, 0.4);
+    EXPECT_LT(mean, 0.6);
+    EXPECT_GT(std::sqrt(variance) / mean, 0.5);
+    // Of numbers by chance the means of ten have a tenth of the variance.
+    EXPECT_GT(parts * kPart / n - mean * mean, 0.2 * variance);
 }
 
 TEST(Icicles, AreFewerCornersFarAwayAndNoneBeyondSight)

@@ -20,6 +20,7 @@ struct Cover {
     vec2 refraction;  // shift of the texture coordinates below the water
     float deeper_m;   // of the water, more than where it closes
     float lost;       // variance of the slopes of water that its normal does not show
+    float around;     // SnowCover::melt: what snow lies near
     float slides;     // 1: the slope of the bumps is still to take its share of the film (shed_film)
 };
 
@@ -45,6 +46,7 @@ Cover no_cover(SurfaceInput at)
     c.refraction = vec2(0.0);
     c.deeper_m = 0.0;
     c.lost = 0.0;
+    c.around = 0.0;
     c.slides = 0.0;
     return c;
 }
@@ -91,7 +93,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     snow.melt = 0.0;
     // A patch knows how steep it is; of the pixel its relief alone counts.
     const float up = here.placed ? min(smoothed.y + 1.0 - saturate(at.normal.y), 1.0) : smoothed.y;
-    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up, over_m, ledge, here.placed ? 1.0 : turf_holds(at.normal.y));
+    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up, over_m, ledge, here.placed);
     if ((SNOW & SNOW_BODY) != 0u) {
         snow.snow = max(snow.snow, body);
         snow.melt = max(snow.melt, own_body.wets);
@@ -175,6 +177,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     c.deeper_m = water.deeper_m;
     c.lost = ripple.lost;
     c.snow = snow.snow;
+    c.around = snow.melt;
     if (SNOW != 0u) {
         c.water = melt_wetness(water.anywhere, snow.melt, frame.weather.melt_exp);
         const float snow_share = snow.snow / max(snow.snow + c.water, 1.0e-4);

@@ -122,6 +122,11 @@ SurfaceData evaluate_surface(SurfaceInput at)
             base *= field.tone;
             if (SNOW != 0u) cover.snow = snow_beside_hedges(cover.snow, field.hedge);
         }
+        if (SNOW != 0u) {
+            // Blades that hold none stand dull as those beside.
+            const float line_up = snow_height_factor(at.position.y, frame.weather.snow_start_height_m, frame.weather.snow_height_blend_m);
+            base = turf_in_winter(base, max(cover.around, 0.1 * saturate(3.0 * frame.weather.snow_amount) * line_up));
+        }
     }
 #ifdef SURFACE_ALPHA
     data.alpha = surface_alpha(at);

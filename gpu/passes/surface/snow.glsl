@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_SNOW_GLSL
 #define PETRICHOR_SURFACE_SNOW_GLSL
 
+#include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
 #include "formulas/weather/land_relief.h"
 #include "formulas/weather/snow_in_turf.h"
@@ -11,6 +12,8 @@
 
 const float SNOW_MEAN_RELIEF = 0.7;   // of stones and their joints, in height maps
 const float SNOW_SETTLES_M = 0.008;  // what lies so much lower is a joint
+
+const float kTurfSlopeUp = 0.94;     // land less level than this holds snow by its relief
 
 // Y of the normal of the triangle itself: smoothed normals at the upper edge of a wall look half up.
 float face_up(SurfaceInput at)
@@ -110,8 +113,8 @@ float stands_over_m(SurfaceInput at)
 }
 
 // smoothed_up: y of the pixel normal, smoothed by the snow's amount. over_m: as stands_over_m(). ledge: as
-// ledge_of(). held: share of the snow of `amount` that this slope holds, 1 where a patch has told.
-SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m, float ledge, float held)
+// ledge_of(). placed: a patch has told how much its slope holds.
+SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m, float ledge, bool placed)
 {
     // What falls first comes to rest between the stones.
     const float between = clamp(-over_m / SNOW_SETTLES_M, -1.0, 1.0);
@@ -135,7 +138,7 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m
     // What lies on a ledge does not ask how steep the wall is.
     holds += ledge * max(1.0 - smoothed_up - holds, 0.0);
     const float unique = unique_mask(at);
-    const bool slope_of_land = (BESIDES & BESIDES_WIDE_GROUND) != 0u && at.normal.y < 0.85;
+    const bool slope_of_land = (BESIDES & BESIDES_WIDE_GROUND) != 0u && at.normal.y < kTurfSlopeUp;
     SlopeRelief relief;
     relief.flatter = 0.0;
     relief.lost = 0.0;
@@ -144,6 +147,11 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m
         const float width_m = sqrt(max(dot(dx, dx), dot(dy, dy)));
         relief = with_gullies(slope_relief(at.position, width_m), at.position, width_m,
                               frame.look.ground_variation * land_relief_share(at.normal.y));
+        relief.flatter *= 1.0 - smooth_edge(0.75, kTurfSlopeUp, at.normal.y);
+        const bool capped = (SNOW & SNOW_BODY) != 0u && at.weather.a < 0.999;
+        if (placed && !capped) {
+            amount = cover_of_share(amount, snow_of_bend(at.normal.y, face_up(at)) * snow_of_relief(relief.flatter, amount));
+        }
         // Level ground holds all of it; it counts from where snow would slide.
         holds += (1.0 - smooth_edge(0.7, 0.85, at.normal.y)) * snow_holds(relief);
     }
@@ -156,7 +164,7 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up, float over_m
         cover.melt = max(cover.melt, caught * level.melt);
     }
     if ((BESIDES & BESIDES_WIDE_GROUND) != 0u) {
-        cover = with_snow_in_turf(cover, snow_in_turf(amount * held, mask, relief.flatter) * height * unique);
+        cover = with_snow_in_turf(cover, snow_in_turf(amount * (placed ? 1.0 : turf_holds(at.normal.y)), mask, relief.flatter) * height * unique);
     }
     return cover;
 }
