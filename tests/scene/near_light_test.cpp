@@ -274,6 +274,19 @@ TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
     }
     EXPECT_LT(light_at(lit.lit, {0, 2.2f, 0}, {1, 0, 0}).irradiance.x, 0.01f);
     EXPECT_LT(light_at(lit.lit, {0, 0.98f, 0}, {1, 0, 0}).irradiance.x, 0.02f) << "below it";
+
+    // Put in place, by links that stand: the same texels, whatever light was there before.
+    const StandingLinks standing = standing_links(cut.patches, &cut.near);
+    std::vector<glm::vec4> texels = near_texels(cut.near);
+    ASSERT_EQ(texels.size(), lit.light.near.size());
+    EXPECT_NE(texels, lit.light.near);
+    input.standing = &standing;
+    input.near_texels = texels;
+    for (int frame = 0; frame < 2; ++frame) {
+        EXPECT_TRUE(relight(cut.patches, input).near.empty());
+        EXPECT_EQ(texels, lit.light.near);
+        for (std::size_t t = 1; t < texels.size(); t += 4) texels[t].w = 7.0f;
+    }
 }
 
 // A plate hides a lamp from one half of a sill: each of a polygon's four points knows for itself.
