@@ -38,7 +38,7 @@ Four sum_of_row(const std::vector<Four>& sent, const std::uint16_t* row, std::si
 {
     Four a{}, b{}, c{}, d{};
     std::size_t r = 0;
-    for (; r + 3 < rays; r += 4) {
+    for (; rays - r >= 4; r += 4) {
         a += sent[row[r]];
         b += sent[row[r + 1]];
         c += sent[row[r + 2]];

@@ -234,6 +234,38 @@ TEST(NearLight, AFurnaceIsAFurnaceAtEveryPoint)
     EXPECT_GT(close, 20) << "corners";
 }
 
+// The side of a board of 2 mm on a glowing wall, so narrow that no cell has it: half of what it sees is the wall.
+TEST(NearLight, AStripWithoutAPatchSeesTheWallThatItStandsOn)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-1.5f, -1.5f, 0}, {3, 0, 0}, {0, 3, 0});            // the wall, facing +z
+    add_face(scene, {0.1f, -1, 0}, {0, 0, 0.002f}, {0, 2, 0});           // the side, facing -x
+    const Cut cut(scene, 0.35f);
+    const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.0f)), direct(albedo), emission(cut.patches.count, glm::vec3(1.0f)),
+        sky(shared::kSkyBins, glm::vec3(0.0f)), near_albedo(cut.near.sources(), glm::vec3(0.0f)), near_direct(near_albedo),
+        near_emission(cut.near.sources(), glm::vec3(1.0f));
+    Relight input;
+    input.albedo = albedo;
+    input.direct = direct;
+    input.emission = emission;
+    input.sky = sky;
+    input.near = &cut.near;
+    input.near_albedo = near_albedo;
+    input.near_direct = near_direct;
+    input.near_emission = near_emission;
+    const Lit lit(cut, input);
+    const LeafFinder finder(cut.patches);
+    int without = 0;
+    for (int k = -9; k <= 9; ++k) {
+        const glm::vec3 x{0.1f, 0.1f * static_cast<float>(k), 0.001f};
+        const std::uint32_t leaf = finder.leaf_at(x, {-1, 0, 0});
+        ASSERT_LT(leaf, cut.patches.count);
+        without += cut.patches.normal[leaf].z > 0.9f ? 1 : 0;
+        EXPECT_NEAR(light_at(lit.lit, x, {-1, 0, 0}).irradiance.x, 0.5f, 0.06f) << x.y;
+    }
+    EXPECT_GT(without, 5);
+}
+
 // A wall over a sill of 6 cm that the sun lights, no sky: a finger's breadth above the sill its light is
 // nearly half of what the sill sends, an arm's length above nothing of it is left.
 TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)

@@ -21,6 +21,7 @@ constexpr std::size_t kJudged = 24;     // candidates whose light is guessed
 constexpr std::size_t kTried = 16;      // and whose sight is traced
 constexpr std::size_t kSightPoints = 8;
 constexpr std::size_t kSightRays = 24;  // of all of them
+constexpr float kFaintest = 0.25f;      // of the most that a point sees, for it to count
 constexpr std::size_t kNoRay = std::numeric_limits<std::size_t>::max();
 constexpr int kSightDirections = 64;
 constexpr std::size_t kFewReceivers = 4;
@@ -574,7 +575,15 @@ float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon&
         }
     }
     std::stable_sort(order.begin(), order.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
-    if (order.size() > kSightPoints) order.resize(kSightPoints);
+    // Those that see the most are all beside it: where a frame stands before a pane, others see less of it.
+    const auto faint = std::find_if(order.begin(), order.end(), [&](const auto& one) { return one.first < kFaintest * order.front().first; });
+    const auto many = static_cast<std::size_t>(faint - order.begin());
+    if (many > kSightPoints) {
+        for (std::size_t k = 0; k < kSightPoints; ++k) order[k] = order[k * many / kSightPoints];
+        order.resize(kSightPoints);
+    } else if (order.size() > kSightPoints) {
+        order.resize(kSightPoints);
+    }
     // Of a look: by which of the points, what it brings, and its way, where it may arrive.
     struct Asked {
         std::size_t point;
