@@ -234,6 +234,24 @@ TEST(NearLight, AFurnaceIsAFurnaceAtEveryPoint)
     EXPECT_GT(close, 20) << "corners";
 }
 
+// In one number: a line from the polygon's plane to a reach before it, no more than all and no less than nothing.
+TEST(NearFormFactor, WhatIsSeenIsALineOverTheHeight)
+{
+    for (const float at_plane : {-1.0f, -0.3f, 0.0f, 0.5f, 1.0f, 1.6f, 2.0f}) {
+        for (const float at_reach : {-2.0f, -0.7f, 0.0f, 0.4f, 1.0f, 2.9f}) {
+            const float packed = shared::near_seen_packed(at_plane, at_reach);
+            for (const float height : {0.0f, 0.1f, 0.5f, 0.9f, 1.0f})
+                EXPECT_NEAR(shared::near_seen(packed, height), std::clamp(at_plane + (at_reach - at_plane) * height, 0.0f, 1.0f), 2.5e-3f);
+            EXPECT_EQ(shared::near_seen(packed, -0.5f), shared::near_seen(packed, 0.0f));
+            EXPECT_EQ(shared::near_seen(packed, 7.0f), shared::near_seen(packed, 1.0f));
+        }
+    }
+    EXPECT_GT(shared::near_seen(shared::near_seen_packed(9.0f, 9.0f), 1.0f), 0.99f) << "held to what fits";
+    // What faces up a metre below the point, two the other way round.
+    EXPECT_NEAR(shared::near_height({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}), 1.0f, 1e-6f);
+    EXPECT_NEAR(shared::near_height({-1, -1, -1}, {1, -1, -1}, {1, -1, 1}, {-1, -1, 1}), -1.0f, 1e-6f);
+}
+
 // The side of a board of 2 mm on a glowing wall, so narrow that no cell has it: half of what it sees is the wall.
 TEST(NearLight, AStripWithoutAPatchSeesTheWallThatItStandsOn)
 {
