@@ -125,6 +125,20 @@ std::string surfaces_key(const scene::Scene& scene, const std::string& patches_k
 
 }  // namespace
 
+namespace {
+
+// Cells are smaller near them.
+std::string lamps_key(const scene::Scene& scene)
+{
+    const std::vector<glm::vec3> lamps_m = scene::lamps_that_cut(scene);
+    if (lamps_m.empty()) return {};
+    Hasher hasher;
+    hasher.add_bytes(std::as_bytes(std::span(lamps_m)));
+    return hasher.text();
+}
+
+}  // namespace
+
 std::string what_rays_see(const scene::Scene& scene, const scene::Triangles& triangles)
 {
     Hasher seen;
@@ -544,7 +558,7 @@ SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptio
     begins("triangles", 0.0f);
     // The alpha of holes counts by its encoded bytes: nothing is decoded when all is kept.
     const scene::Triangles plain(scene, {});
-    const std::string key = scene::patches_fingerprint(what_rays_see(scene, plain), options.patches);
+    const std::string key = scene::patches_fingerprint(what_rays_see(scene, plain) + lamps_key(scene), options.patches);
     transport.key = key;
 
     bool found_patches = false, found_surfaces = false;

@@ -75,6 +75,30 @@ SHARED_FN float near_form_factor(vec3 a, vec3 b, vec3 c, vec3 d, vec3 n)
     return before > 0.0f && !own_sheet ? clamp(sum, 0.0f, 1.0f) : 0.0f;
 }
 
+// How far before a polygon's plane the point is.
+SHARED_FN float near_height(vec3 a, vec3 b, vec3 c, vec3 d)
+{
+    const vec3 area = cross(c - a, d - b);
+    return -dot(area, a) * inversesqrt(max(dot(area, area), 1.0e-24f));
+}
+
+// Share of a polygon that is seen, linear over the height before its plane: a frame hides more of a pane from those that
+// stand farther out. In one number: at the plane in steps, -1..2, and a reach before it, -2..3, as half of what is left.
+SHARED_CONST float kNearSeenSteps = 1023.0f;
+SHARED_FN float near_seen_packed(float at_plane, float at_reach)
+{
+    return floor((clamp(at_plane, -1.0f, 2.0f) + 1.0f) * (kNearSeenSteps / 3.0f) + 0.5f) +
+           (clamp(at_reach, -2.0f, 3.0f) + 2.0f) * 0.1f;
+}
+// heights: height over reach.
+SHARED_FN float near_seen(float packed, float heights)
+{
+    const float steps = floor(packed);
+    const float at_plane = steps * (3.0f / kNearSeenSteps) - 1.0f;
+    const float at_reach = (packed - steps) * 10.0f - 2.0f;
+    return clamp(mix(at_plane, at_reach, clamp(heights, 0.0f, 1.0f)), 0.0f, 1.0f);
+}
+
 SHARED_END
 
 #endif

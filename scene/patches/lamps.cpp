@@ -32,6 +32,18 @@ glm::vec3 lamp_irradiance(const Light& light, std::span<const LightProfile> prof
     return color * profile_towards(light, profiles, -towards, distance) * (cosine * falloff);
 }
 
+std::vector<glm::vec3> lamps_that_cut(const Scene& scene)
+{
+    constexpr std::size_t kMostLamps = 64;
+    std::vector<glm::vec3> lamps_m;
+    for (const Light& light : scene.lights) {
+        const glm::vec3 at = light.position_m;
+        if (light.kind != LightKind::Directional && light.intensity > 0.0f && std::isfinite(at.x + at.y + at.z)) lamps_m.push_back(at);
+    }
+    if (lamps_m.size() > kMostLamps) lamps_m.clear();
+    return lamps_m;
+}
+
 bool lamp_seen(const Tracer& tracer, const Light& light, glm::vec3 from)
 {
     if (light.kind == LightKind::Directional) {

@@ -23,6 +23,9 @@ glm::vec3 lamp_irradiance(const Light& light, std::span<const LightProfile> prof
 /// Whether a ray from a point reaches the lamp. It ends kLanternRadius_m before it.
 bool lamp_seen(const Tracer& tracer, const Light& light, glm::vec3 from);
 
+/// Positions of the lamps near which cells are smaller; none where there are more than 64: cells would be small everywhere.
+std::vector<glm::vec3> lamps_that_cut(const Scene& scene);
+
 /// Light of one lamp on every patch, added to `direct`, one entry a leaf. Directional lights are shaded
 /// by the visibility bits, others by reach (trace_lamp; empty: nothing shades them) and by their profile, of
 /// `profiles`, those of the scene.

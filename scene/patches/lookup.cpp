@@ -150,8 +150,7 @@ std::uint32_t LeafFinder::leaf_at(glm::vec3 position, glm::vec3 normal) const
     if (ways_.grid.levels == 0) return shared::kNoPatch;
     const LitPatches lit{ways_.table, ways_.ways, planes_, none_, sizes_, ways_.grid};
     shared::Lookup lookup{lit};
-    const auto found = lookup.patch_sum(ways_.grid, lookup.patch_lifted(ways_.grid, position, normal), normal, 0.0f);
-    return found.light.weight < 1.0e-5f ? shared::kNoPatch : found.own.leaf;
+    return lookup.patch_found(ways_.grid, position, normal, 0.0f).own.leaf;
 }
 
 shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal, float lift_m)

@@ -8,6 +8,7 @@
 #include "scene/patches/lamps.h"
 #include "scene/patches/near_light.h"
 #include "scene/patches/radiosity.h"
+#include "scene/patches/visible_way.h"
 
 namespace petrichor::scene {
 
@@ -50,10 +51,10 @@ std::vector<std::uint8_t> trace_near_lamp(const NearLinks& near, const Tracer& t
 void add_sun(const NearLinks& near, glm::vec3 towards_sun, glm::vec3 illuminance,
              std::vector<glm::vec3>& direct)
 {
+    const VisibleWay way(towards_sun);
     for (std::size_t s = 0; s < near.sources(); ++s) {
         const float cosine = glm::dot(near.normal[s], towards_sun);
-        if (cosine > 0.0f)
-            direct[s] += illuminance * (cosine * visible_share(near.visible[s], towards_sun));
+        if (cosine > 0.0f) direct[s] += illuminance * (cosine * way.share(near.visible[s]));
     }
 }
 

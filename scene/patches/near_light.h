@@ -35,7 +35,7 @@ struct NearLinks {
     // Of entries.
     /// Corners in turn, seen from the front; of a triangle the last one twice.
     std::vector<std::array<glm::vec3, 4>> corners;
-    std::vector<float> seen;            ///< 0..1 of it, from the patch
+    std::vector<float> seen;            ///< of it, from the patch: shared::near_seen, its reach a regular cell
     std::vector<std::uint32_t> source;  ///< what it sends
 
     // Of sources: pieces of faces, as long as a cell, that entries of all patches around share.

@@ -37,6 +37,16 @@ Texel over_texel(int index, const Body& body)
     return texel;
 }
 
+const std::vector<Texel>& even_texels()
+{
+    static const std::vector<Texel> texels = [] {
+        std::vector<Texel> all;
+        for (int t = 0; t < shared::kVisibilityTexels; ++t) all.push_back(over_texel(t, [](const glm::vec3&, float) {}));
+        return all;
+    }();
+    return texels;
+}
+
 }  // namespace
 
 std::vector<SkyTexel> sky_texels(std::span<const glm::vec3> sky)
@@ -62,59 +72,77 @@ OpenSky::OpenSky(std::span<const SkyTexel> texels)
 {
     assert(texels.size() == static_cast<std::size_t>(shared::kVisibilityTexels));
     for (int t = 0; t < shared::kVisibilityTexels; ++t) {
-        const Texel texel = over_texel(t, [](const glm::vec3&, float) {});
+        const Texel& texel = even_texels()[static_cast<std::size_t>(t)];
         const SkyTexel& from = texels[static_cast<std::size_t>(t)];
         const glm::vec3 way = from.way * texel.solid_angle;
-        const glm::vec3 even = texel.even * texel.solid_angle;
         // About the way of the light they vary as in the whole texel.
         const glm::mat3 square = (texel.square - glm::outerProduct(texel.even, texel.even) +
                                   glm::outerProduct(from.way, from.way)) *
                                  (luminance_of(from.light) * texel.solid_angle);
-        const float row[kRows] = {way.x, way.y, way.z, even.x, even.y, even.z, from.light.x, from.light.y, from.light.z,
+        const float row[kRows] = {way.x, way.y, way.z, from.light.x, from.light.y, from.light.z,
                                   square[0][0], square[0][1], square[0][2], square[1][1], square[1][2], square[2][2]};
-        for (std::size_t r = 0; r < kRows; ++r) rows_[r][static_cast<std::size_t>(t) / 4][t % 4] = row[r];
+        for (std::size_t r = 0; r < kRows; ++r) fours_[static_cast<std::size_t>(t) / 4][r][t % 4] = row[r];
     }
 }
 
-OpenSky::Mean OpenSky::seen_by(const Patches& patches, std::uint32_t patch) const
+OpenSky::Front OpenSky::front_of(const Patches& patches, std::uint32_t patch)
 {
+    const std::vector<Texel>& texels = even_texels();
+    Front front;
+    for (std::size_t t = 0; t < texels.size(); ++t) {
+        if ((patches.visible[patch][t / 32] >> t % 32 & 1u) == 0) continue;
+        const Texel& texel = texels[t];
+        const float cosine = glm::dot(texel.even, patches.normal[patch]);
+        if (!(cosine > 0.0f)) continue;
+        front.bits[t / 32] |= 1u << t % 32;
+        front.all += cosine * texel.solid_angle;
+    }
+    return front;
+}
+
+OpenSky::Mean OpenSky::seen_by(const Front& front, glm::vec3 normal) const
+{
+    Mean mean;
+    if (!(front.all > 1.0e-6f)) return mean;
     using Mask = std::int32_t __attribute__((vector_size(16)));
-    const glm::vec3 n = patches.normal[patch];
+    static constexpr auto kMasks = [] {
+        std::array<Mask, 16> masks{};
+        for (int m = 0; m < 16; ++m)
+            masks[static_cast<std::size_t>(m)] = Mask{-(m & 1), -(m >> 1 & 1), -(m >> 2 & 1), -(m >> 3 & 1)};
+        return masks;
+    }();
+    const glm::vec3 n = normal;
     const Four x{n.x, n.x, n.x, n.x}, y{n.y, n.y, n.y, n.y}, z{n.z, n.z, n.z, n.z};
     const Four none{};
-    Four even = none, red = none, green = none, blue = none, to_x = none, to_y = none, to_z = none;
-    const std::array<std::uint32_t, 8>& bits = patches.visible[patch];
+    Four red = none, green = none, blue = none, xx = none, xy = none, xz = none, yy = none, yz = none, zz = none;
     for (std::size_t k = 0; k < kFours; ++k) {
-        const std::uint32_t four = bits[k / 8] >> (4 * (k % 8)) & 15u;
+        const std::uint32_t four = front.bits[k / 8] >> (4 * (k % 8)) & 15u;
         if (four == 0) continue;
-        const Mask seen{-static_cast<std::int32_t>(four & 1u), -static_cast<std::int32_t>(four >> 1 & 1u),
-                        -static_cast<std::int32_t>(four >> 2 & 1u), -static_cast<std::int32_t>(four >> 3)};
+        const Mask seen = kMasks[four];
+        const std::array<Four, kRows>& row = fours_[k];
         const auto where = [&](const Four& v, const Mask& mask) {
             return reinterpret_cast<Four>(reinterpret_cast<Mask>(v) & mask);
         };
-        const auto cosine = [&](Row first) {
-            return rows_[first][k] * x + rows_[static_cast<std::size_t>(first) + 1][k] * y +
-                   rows_[static_cast<std::size_t>(first) + 2][k] * z;
-        };
-        const Four c_even = cosine(EvenX);
-        const Mask facing = seen & (c_even > none);
-        const Four c_way = cosine(WayX);
-        const Four c = where(c_way, facing & (c_way > none));
-        even += where(c_even, facing);
-        red += c * rows_[Red][k];
-        green += c * rows_[Green][k];
-        blue += c * rows_[Blue][k];
-        to_x += where(rows_[XX][k] * x + rows_[XY][k] * y + rows_[XZ][k] * z, facing);
-        to_y += where(rows_[XY][k] * x + rows_[YY][k] * y + rows_[YZ][k] * z, facing);
-        to_z += where(rows_[XZ][k] * x + rows_[YZ][k] * y + rows_[ZZ][k] * z, facing);
+        const Four c_way = row[WayX] * x + row[WayY] * y + row[WayZ] * z;
+        const Four c = where(c_way, seen & (c_way > none));
+        red += c * row[Red];
+        green += c * row[Green];
+        blue += c * row[Blue];
+        xx += where(row[XX], seen);
+        xy += where(row[XY], seen);
+        xz += where(row[XZ], seen);
+        yy += where(row[YY], seen);
+        yz += where(row[YZ], seen);
+        zz += where(row[ZZ], seen);
     }
     const auto total = [](const Four& v) { return (v[0] + v[1]) + (v[2] + v[3]); };
-    Mean mean;
-    const float all = total(even);
-    if (!(all > 1.0e-6f)) return mean;
-    const glm::vec3 light = glm::vec3(total(red), total(green), total(blue)) / all;
+    const glm::vec3 light = glm::vec3(total(red), total(green), total(blue)) / front.all;
     mean.light = glm::vec4(light, luminance_of(light));
-    mean.moment = glm::vec3(total(to_x), total(to_y), total(to_z)) / all;
+    const float mixed_xy = total(xy), mixed_xz = total(xz), mixed_yz = total(yz);
+    mean.moment = glm::vec3(total(xx) * n.x + mixed_xy * n.y + mixed_xz * n.z,
+                            mixed_xy * n.x + total(yy) * n.y + mixed_yz * n.z,
+                            mixed_xz * n.x + mixed_yz * n.y + total(zz) * n.z) /
+                  front.all;
     mean.known = true;
     return mean;
 }

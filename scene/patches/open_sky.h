@@ -31,15 +31,23 @@ public:
         bool known = false;      ///< false: no direction of the patch is seen to leave the scene
     };
 
+    /// What no light changes: which visibility bits lie in front of the patch, and their solid angle times cosine.
+    struct Front {
+        std::array<std::uint32_t, 8> bits{};
+        float all = 0.0f;
+    };
+    static Front front_of(const Patches& patches, std::uint32_t patch);
+
     /// texels: shared::kVisibilityTexels.
     explicit OpenSky(std::span<const SkyTexel> texels);
-    Mean seen_by(const Patches& patches, std::uint32_t patch) const;
+    /// normal: of the patch.
+    Mean seen_by(const Front& front, glm::vec3 normal) const;
 
 private:
     using Four = float __attribute__((vector_size(16)));
     static constexpr std::size_t kFours = 64;
-    enum Row { WayX, WayY, WayZ, EvenX, EvenY, EvenZ, Red, Green, Blue, XX, XY, XZ, YY, YZ, ZZ, kRows };
-    std::array<std::array<Four, kFours>, kRows> rows_;
+    enum Row { WayX, WayY, WayZ, Red, Green, Blue, XX, XY, XZ, YY, YZ, ZZ, kRows };
+    std::array<std::array<Four, kRows>, kFours> fours_;  // of texels that follow each other
 };
 
 }  // namespace petrichor::scene

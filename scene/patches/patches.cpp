@@ -9,6 +9,7 @@
 #include "scene/patches/detail/links.h"
 #include "scene/patches/detail/nodes.h"
 #include "scene/patches/detail/sampling.h"
+#include "scene/patches/visible_way.h"
 
 namespace petrichor::scene {
 namespace {
@@ -272,22 +273,22 @@ float visible_share(const Patches& patches, std::uint32_t patch, glm::vec3 direc
 
 float visible_share(const std::array<std::uint32_t, 8>& bits, glm::vec3 direction)
 {
-    if (!(direction.y > 0.0f)) return 0.0f;
+    return VisibleWay(direction).share(bits);
+}
+
+VisibleWay::VisibleWay(glm::vec3 direction)
+{
+    if (!(direction.y > 0.0f)) return;
     const glm::vec2 at = shared::visibility_texel(direction) - 0.5f;
     const glm::vec2 corner = glm::floor(at);
     const glm::vec2 part = at - corner;
-    float sum = 0.0f;
     for (int k = 0; k < 4; ++k) {
-        const int x = std::clamp(static_cast<int>(corner.x) + (k & 1), 0,
-                                 shared::kVisibilityAcross - 1);
-        const int y = std::clamp(static_cast<int>(corner.y) + (k >> 1), 0,
-                                 shared::kVisibilityAcross - 1);
-        const int bit = y * shared::kVisibilityAcross + x;
-        const float weight = ((k & 1) ? part.x : 1.0f - part.x) * ((k >> 1) ? part.y : 1.0f - part.y);
-        const std::uint32_t word = bits[static_cast<std::size_t>(bit >> 5)];
-        if ((word >> (bit & 31)) & 1u) sum += weight;
+        const int x = std::clamp(static_cast<int>(corner.x) + (k & 1), 0, shared::kVisibilityAcross - 1);
+        const int y = std::clamp(static_cast<int>(corner.y) + (k >> 1), 0, shared::kVisibilityAcross - 1);
+        const auto of = static_cast<std::size_t>(k);
+        bit_[of] = static_cast<std::uint32_t>(y * shared::kVisibilityAcross + x);
+        weight_[of] = ((k & 1) ? part.x : 1.0f - part.x) * ((k >> 1) ? part.y : 1.0f - part.y);
     }
-    return sum;
 }
 
 float rain_exposure(const Patches& patches, std::uint32_t patch, glm::vec3 drop_velocity_m_s)

@@ -14,6 +14,7 @@
 #include "scene/patches/lamps.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/open_sky.h"
+#include "scene/patches/visible_way.h"
 
 namespace petrichor::scene {
 namespace {
@@ -30,6 +31,21 @@ using Four = float __attribute__((vector_size(16)));
 Four four(glm::vec3 v)
 {
     return Four{v.x, v.y, v.z, 0.2126f * v.x + 0.7152f * v.y + 0.0722f * v.z};
+}
+
+// Of what a row's rays meet, by four sums: an addition need not wait for the one before.
+Four sum_of_row(const std::vector<Four>& sent, const std::uint16_t* row, std::size_t rays)
+{
+    Four a{}, b{}, c{}, d{};
+    std::size_t r = 0;
+    for (; rays - r >= 4; r += 4) {
+        a += sent[row[r]];
+        b += sent[row[r + 1]];
+        c += sent[row[r + 2]];
+        d += sent[row[r + 3]];
+    }
+    for (; r < rays; ++r) a += sent[row[r]];
+    return (a + b) + (c + d);
 }
 
 template <class Body>
@@ -106,7 +122,7 @@ SkyShares sky_shares(const Patches& patches, const StandingLinks& links, const R
         const int rays = links.above[i];
         if (rays == 0) return;
         sky.share[i] = static_cast<float>(rays) / static_cast<float>(patches.rays);
-        const OpenSky::Mean seen = open.seen_by(patches, i);
+        const OpenSky::Mean seen = open.seen_by(links.front[i], patches.normal[i]);
         if (seen.known) {
             sky.light[i] = Four{seen.light.x, seen.light.y, seen.light.z, seen.light.w};
             sky.moment[i] = seen.moment;
@@ -126,15 +142,13 @@ SkyShares sky_shares(const Patches& patches, const StandingLinks& links, const R
 constexpr int kOpenLevel = 2;  // of cells that stand in the open
 
 // Light that wide cells are short of, by all rays between them and smaller patches (StandingLinks), to be added to that of their own rays.
+// own: of leaves, and none of what else rays meet.
 std::vector<Four> by_reciprocity(const Patches& patches, const StandingLinks& links, const std::vector<Four>& own, int threads)
 {
     std::vector<Four> more(patches.count, Four{});
     const float share = 1.0f / static_cast<float>(patches.rays);
     over_rows(static_cast<std::uint32_t>(links.wide.size()), threads, [&](std::uint32_t w) {
-        const std::uint16_t* row = patches.row(links.wide[w]);
-        Four sum{};
-        for (int r = 0; r < patches.rays; ++r)
-            if (row[r] < patches.count) sum += own[row[r]];
+        const Four sum = sum_of_row(own, patches.row(links.wide[w]), static_cast<std::size_t>(patches.rays));
         const Four mean = sum * Four{share, share, share, share};
         Four light{};
         for (std::uint32_t e = links.first[w]; e < links.first[w + 1]; ++e) {
@@ -160,33 +174,24 @@ Four glow_beyond(const Relight& input, std::uint32_t i)
 }
 
 // Radiosity of the sources of close polygons. sent: of what rays meet; sky above the horizon apart.
-std::vector<glm::vec3> near_sends(const Patches& patches, const Relight& input, const std::vector<Four>& sent,
-                                  const SkyShares& sky, const std::vector<Four>& glow_light)
+std::vector<glm::vec3> near_sends(const Patches& patches, const Relight& input, const StandingLinks& standing,
+                                  const std::vector<Four>& sent, const SkyShares& sky, const std::vector<Four>& glow_light)
 {
     const NearLinks& near = *input.near;
-    const std::uint32_t count = patches.count;
     const bool glows = input.glow != nullptr && !input.glow->empty() && !near.glow_first.empty();
-    std::vector<float> leaves_up(static_cast<std::size_t>(shared::kSkyBins) + 1, 0.0f);
-    for (int s = 0; s < shared::kSkyBins; ++s)
-        leaves_up[static_cast<std::size_t>(s)] = shared::sky_bin_above(s) ? 1.0f : 0.0f;
     std::vector<glm::vec3> sends(near.sources());
     over_rows(static_cast<std::uint32_t>(sends.size()), input.threads, [&](std::uint32_t s) {
         const std::uint16_t* row = near.links.data() + std::size_t{s} * NearLinks::kLinks;
         constexpr float kShare = 1.0f / static_cast<float>(NearLinks::kLinks);
         const std::uint32_t j = near.sender[s];
-        Four light{}, above{};
-        float up = 0.0f;
-        for (std::size_t r = 0; r < NearLinks::kLinks; ++r) {
-            light += sent[row[r]];
-            if (row[r] < count || leaves_up[row[r] - count] == 0.0f) continue;
-            up += 1.0f;
-            above += four(input.sky[row[r] - count]);
-        }
+        Four light = sum_of_row(sent, row, NearLinks::kLinks);
         // Of the sky above it has what its patch has, which is known to more than a few rays, unless it faces
         // another way.
-        if (up > 0.0f) {
+        if (const auto up = static_cast<float>(standing.near_above[s]); up > 0.0f) {
             const bool along = sky.share[j] > 0.0f && glm::dot(near.normal[s], patches.normal[j]) > kSameWay;
-            light += along ? sky.light[j] * Four{up, up, up, up} : above;
+            if (along) light += sky.light[j] * Four{up, up, up, up};
+            for (std::size_t r = 0; !along && r < NearLinks::kLinks; ++r)
+                if (leaves_above(patches, row[r])) light += four(input.sky[row[r] - patches.count]);
         }
         light = light * Four{kShare, kShare, kShare, kShare};
         if (glows) {
@@ -206,15 +211,30 @@ std::vector<glm::vec3> near_sends(const Patches& patches, const Relight& input, 
 
 }  // namespace
 
-StandingLinks standing_links(const Patches& patches)
+std::vector<glm::vec4> near_texels(const NearLinks& near)
+{
+    std::vector<glm::vec4> texels;
+    texels.reserve(near.entries() * 4);
+    for (std::size_t e = 0; e < near.entries(); ++e)
+        for (std::size_t c = 0; c < 4; ++c) texels.emplace_back(near.corners[e][c], c == 0 ? near.seen[e] : 0.0f);
+    return texels;
+}
+
+StandingLinks standing_links(const Patches& patches, const NearLinks* near)
 {
     StandingLinks links;
+    for (std::size_t s = 0; near != nullptr && s < near->sources(); ++s) {
+        const std::uint16_t* row = near->links.data() + s * NearLinks::kLinks;
+        links.near_above.push_back(static_cast<std::uint8_t>(std::count_if(
+            row, row + NearLinks::kLinks, [&](std::uint16_t link) { return leaves_above(patches, link); })));
+    }
     for (std::uint32_t i = 0; i < patches.count; ++i) {
         const auto turn = portable_sin_cos(6.283185307179586 * static_cast<double>(row_turn(cell_hash(patches.seed, patches.key[i]))));
         links.turn.emplace_back(static_cast<float>(turn.cosine), static_cast<float>(turn.sine));
         const std::uint16_t* row = patches.row(i);
         links.above.push_back(static_cast<std::uint16_t>(
             std::count_if(row, row + patches.rays, [&](std::uint16_t link) { return leaves_above(patches, link); })));
+        links.front.push_back(OpenSky::front_of(patches, i));
     }
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> number(patches.count, kNone);
@@ -338,10 +358,11 @@ GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
 void add_sun(const Patches& patches, glm::vec3 towards_sun, glm::vec3 illuminance,
              std::vector<glm::vec3>& direct)
 {
+    const VisibleWay way(towards_sun);
     for (std::uint32_t i = 0; i < patches.count; ++i) {
         const float cosine = glm::dot(patches.normal[i], towards_sun);
         if (!(cosine > 0.0f)) continue;
-        direct[i] += illuminance * (cosine * visible_share(patches, i, towards_sun));
+        direct[i] += illuminance * (cosine * way.share(patches.visible[i]));
     }
 }
 
@@ -379,13 +400,16 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
     assert(input.emission.empty() || input.emission.size() == patches.count);
     assert(input.near == nullptr || (input.near_direct.size() == input.near->sources() &&
                                      input.near_albedo.size() == input.near->sources()));
+    assert(input.near == nullptr || input.near_texels.empty() || input.near_texels.size() == 4 * input.near->entries());
+    assert(input.near == nullptr || input.standing == nullptr || input.standing->near_above.size() == input.near->sources());
     assert(input.near_emission.empty() || input.near_emission.size() == input.near->sources());
     assert(input.sky.size() == static_cast<std::size_t>(shared::kSkyBins));
     const std::uint32_t count = patches.count;
     const bool glows = input.glow != nullptr && !input.glow->empty();
 
     // What a patch sends by itself, seen by rows (`own`) and by pairs (`glow_light`).
-    std::vector<Four> own(count), albedo(count), glow_light(count, Four{});
+    const std::size_t met = std::size_t{count} + shared::kSkyBins + 1;
+    std::vector<Four> own(met, Four{}), albedo(count), glow_light(count, Four{});
     std::vector<bool> linked(count, false);
     if (glows) {
         for (const std::uint32_t s : input.glow->senders) linked[s] = true;
@@ -409,9 +433,8 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
         for (std::uint32_t i = 0; i < count; ++i) own[i] += albedo[i] * glow_light[i];
     }
 
-    std::vector<Four> sent(count + shared::kSkyBins + 1, Four{}), next(sent.size());
-    for (std::uint32_t i = 0; i < count; ++i) sent[i] = own[i];
-    const StandingLinks found = input.standing != nullptr ? StandingLinks{} : standing_links(patches);
+    std::vector<Four> sent = own;
+    const StandingLinks found = input.standing != nullptr ? StandingLinks{} : standing_links(patches, input.near);
     const StandingLinks& standing = input.standing != nullptr ? *input.standing : found;
     const SkyShares sky = sky_shares(patches, standing, input);
     const std::vector<Four> bright = by_reciprocity(patches, standing, own, input.threads);
@@ -424,22 +447,13 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
         const Four share{sky.share[i], sky.share[i], sky.share[i], sky.share[i]};
         reflected[i] = own[i] + albedo[i] * (sky.light[i] * share + bright[i]);
     }
-    next = sent;
+    std::vector<Four> next = sent;
     const auto rays = static_cast<std::size_t>(patches.rays);
     const float share = 1.0f / static_cast<float>(patches.rays);
     const Four shares{share, share, share, share};
     for (int bounce = 0; bounce < input.bounces; ++bounce) {
         over_rows(count, input.threads, [&](std::uint32_t i) {
-            const std::uint16_t* row = patches.row(i);
-            // Two sums: an addition need not wait for the one before.
-            Four even{}, odd{};
-            std::size_t r = 0;
-            for (; r + 1 < rays; r += 2) {
-                even += sent[row[r]];
-                odd += sent[row[r + 1]];
-            }
-            if (r < rays) even += sent[row[r]];
-            next[i] = reflected[i] + albedo[i] * ((even + odd) * shares);
+            next[i] = reflected[i] + albedo[i] * (sum_of_row(sent, patches.row(i), rays) * shares);
         });
         sent.swap(next);
     }
@@ -457,13 +471,22 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
     const std::vector<float> sizes = lookup_sizes(patches);
     over_rows(count, input.threads, [&](std::uint32_t i) {
         const std::uint16_t* row = patches.row(i);
-        Four sum{}, moment{};
-        for (std::size_t r = 0; r < rays; ++r) {
+        // Two sums, as in sum_of_row.
+        Four sum{}, sum_odd{}, moment{}, moment_odd{};
+        const auto add = [&](std::size_t r, Four& to, Four& way) {
             const Four light = sent[row[r]];
             const float luminance = light[3];
-            sum += light;
-            moment += pattern[r] * Four{luminance, luminance, luminance, luminance};
+            to += light;
+            way += pattern[r] * Four{luminance, luminance, luminance, luminance};
+        };
+        std::size_t r = 0;
+        for (; r + 1 < rays; r += 2) {
+            add(r, sum, moment);
+            add(r + 1, sum_odd, moment_odd);
         }
+        if (r < rays) add(r, sum, moment);
+        sum += sum_odd;
+        moment += moment_odd;
         const auto all_rays = static_cast<float>(rays);
         const float from_above = sky.share[i] * static_cast<float>(rays);
         sum += sky.light[i] * Four{from_above, from_above, from_above, from_above};
@@ -481,11 +504,11 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
         }
         float open = patches.open[i];
         Four glow_far = glow_light[i];
-        const std::uint32_t met = close ? input.near->rays_of(i) : 0;
-        if (met > 0) {
+        const std::uint32_t met_close = close ? input.near->rays_of(i) : 0;
+        if (met_close > 0) {
             // What its rays met close by is left to the points themselves.
             const NearLinks& near = *input.near;
-            const float left = static_cast<float>(patches.rays) - static_cast<float>(met);
+            const float left = static_cast<float>(patches.rays) - static_cast<float>(met_close);
             Four nearby{};  // in the order of the entries
             for (std::uint32_t k = near.ray_first[i]; k < near.ray_first[i + 1]; ++k)
                 nearby += sent[row[near.rays[k]]];
@@ -509,16 +532,13 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
     for (std::uint32_t i = 0; i < patches.nodes(); ++i) result.gradient[i].w = sizes[i];
     if (!close) return result;
     const NearLinks& near = *input.near;
-    const std::vector<glm::vec3> sends = near_sends(patches, input, sent, sky, glow_light);
-    const auto entries = static_cast<std::uint32_t>(near.entries());
-    result.near.resize(std::size_t{entries} * 4);
-    over_rows(entries, input.threads, [&](std::uint32_t e) {
-        const auto& corner = near.corners[e];
+    const std::vector<glm::vec3> sends = near_sends(patches, input, standing, sent, sky, glow_light);
+    if (input.near_texels.empty()) result.near = near_texels(near);
+    const std::span<glm::vec4> texels = input.near_texels.empty() ? std::span(result.near) : input.near_texels;
+    for (std::size_t e = 0; e < near.entries(); ++e) {
         const glm::vec3 light = sends[near.source[e]];
-        glm::vec4* texel = &result.near[std::size_t{e} * 4];
-        texel[0] = glm::vec4(corner[0], near.seen[e]);
-        for (int c = 0; c < 3; ++c) texel[c + 1] = glm::vec4(corner[static_cast<std::size_t>(c) + 1], light[c]);
-    });
+        for (int c = 0; c < 3; ++c) texels[4 * e + static_cast<std::size_t>(c) + 1].w = light[c];
+    }
     return result;
 }
 

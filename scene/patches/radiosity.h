@@ -54,8 +54,14 @@ struct StandingLinks {
     std::vector<std::uint32_t> first;   ///< of each and one more: where its entries begin
     std::vector<std::uint32_t> sender;  ///< of an entry: the smaller patch, once for each ray of one of the two that meets the other
     std::vector<float> weight;          ///< less than 0 of its own rays, more than 0 of those of the smaller one
+    std::vector<OpenSky::Front> front;  ///< a leaf each
+    std::vector<std::uint8_t> near_above;  ///< of NearLinks, a source each: its rays that leave the scene above the horizon
 };
-StandingLinks standing_links(const Patches& patches);
+/// near: null: none
+StandingLinks standing_links(const Patches& patches, const NearLinks* near = nullptr);
+
+/// PatchIrradiance::near before there is light: what no frame changes of it.
+std::vector<glm::vec4> near_texels(const NearLinks& near);
 
 struct Relight {
     std::span<const glm::vec3> albedo;    ///< a leaf, 0..1; held to 0.98
@@ -65,7 +71,8 @@ struct Relight {
     std::span<const SkyTexel> sky_above = {};  ///< the same above the horizon, finer; empty: from the bins
     const GlowLinks* glow = nullptr;
     const NearLinks* near = nullptr;  ///< of these patches; for lookups that know them
-    const StandingLinks* standing = nullptr;  ///< of these patches; none: found each time
+    const StandingLinks* standing = nullptr;  ///< of these patches and `near`; none: found each time
+    std::span<glm::vec4> near_texels = {};     ///< of `near`, where their light is to be put; empty: PatchIrradiance::near
     std::span<const glm::vec3> near_albedo;    ///< of its sources, as albedo
     std::span<const glm::vec3> near_direct;    ///< irradiance of its sources from sun and lamps
     std::span<const glm::vec3> near_emission;  ///< radiosity of its sources by themselves; empty: none
@@ -79,7 +86,8 @@ struct PatchIrradiance {
     /// over the other directions, that a lookup takes for those that its point has left.
     std::vector<glm::vec4> irradiance;
     /// Four texels an entry of Relight::near: corners, w: the share that is seen, then the radiosity of its source
-    /// by channel: by its own albedo, of the light that its own rays bring and what falls on it directly.
+    /// by channel: by its own albedo, of the light that its own rays bring and what falls on it directly. Empty with
+    /// Relight::near_texels.
     std::vector<glm::vec4> near;
     /// A node each: shared::irradiance_towards, w: lookup_sizes.
     std::vector<glm::vec4> gradient;

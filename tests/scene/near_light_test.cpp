@@ -234,6 +234,56 @@ TEST(NearLight, AFurnaceIsAFurnaceAtEveryPoint)
     EXPECT_GT(close, 20) << "corners";
 }
 
+// In one number: a line from the polygon's plane to a reach before it, no more than all and no less than nothing.
+TEST(NearFormFactor, WhatIsSeenIsALineOverTheHeight)
+{
+    for (const float at_plane : {-1.0f, -0.3f, 0.0f, 0.5f, 1.0f, 1.6f, 2.0f}) {
+        for (const float at_reach : {-2.0f, -0.7f, 0.0f, 0.4f, 1.0f, 2.9f}) {
+            const float packed = shared::near_seen_packed(at_plane, at_reach);
+            for (const float height : {0.0f, 0.1f, 0.5f, 0.9f, 1.0f})
+                EXPECT_NEAR(shared::near_seen(packed, height), std::clamp(at_plane + (at_reach - at_plane) * height, 0.0f, 1.0f), 2.5e-3f);
+            EXPECT_EQ(shared::near_seen(packed, -0.5f), shared::near_seen(packed, 0.0f));
+            EXPECT_EQ(shared::near_seen(packed, 7.0f), shared::near_seen(packed, 1.0f));
+        }
+    }
+    EXPECT_GT(shared::near_seen(shared::near_seen_packed(9.0f, 9.0f), 1.0f), 0.99f) << "held to what fits";
+    // What faces up a metre below the point, two the other way round.
+    EXPECT_NEAR(shared::near_height({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}), 1.0f, 1e-6f);
+    EXPECT_NEAR(shared::near_height({-1, -1, -1}, {1, -1, -1}, {1, -1, 1}, {-1, -1, 1}), -1.0f, 1e-6f);
+}
+
+// The side of a board of 2 mm on a glowing wall, so narrow that no cell has it: half of what it sees is the wall.
+TEST(NearLight, AStripWithoutAPatchSeesTheWallThatItStandsOn)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-1.5f, -1.5f, 0}, {3, 0, 0}, {0, 3, 0});            // the wall, facing +z
+    add_face(scene, {0.1f, -1, 0}, {0, 0, 0.002f}, {0, 2, 0});           // the side, facing -x
+    const Cut cut(scene, 0.35f);
+    const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.0f)), direct(albedo), emission(cut.patches.count, glm::vec3(1.0f)),
+        sky(shared::kSkyBins, glm::vec3(0.0f)), near_albedo(cut.near.sources(), glm::vec3(0.0f)), near_direct(near_albedo),
+        near_emission(cut.near.sources(), glm::vec3(1.0f));
+    Relight input;
+    input.albedo = albedo;
+    input.direct = direct;
+    input.emission = emission;
+    input.sky = sky;
+    input.near = &cut.near;
+    input.near_albedo = near_albedo;
+    input.near_direct = near_direct;
+    input.near_emission = near_emission;
+    const Lit lit(cut, input);
+    const LeafFinder finder(cut.patches);
+    int without = 0;
+    for (int k = -9; k <= 9; ++k) {
+        const glm::vec3 x{0.1f, 0.1f * static_cast<float>(k), 0.001f};
+        const std::uint32_t leaf = finder.leaf_at(x, {-1, 0, 0});
+        ASSERT_LT(leaf, cut.patches.count);
+        without += cut.patches.normal[leaf].z > 0.9f ? 1 : 0;
+        EXPECT_NEAR(light_at(lit.lit, x, {-1, 0, 0}).irradiance.x, 0.5f, 0.06f) << x.y;
+    }
+    EXPECT_GT(without, 5);
+}
+
 // A wall over a sill of 6 cm that the sun lights, no sky: a finger's breadth above the sill its light is
 // nearly half of what the sill sends, an arm's length above nothing of it is left.
 TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
@@ -274,6 +324,19 @@ TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
     }
     EXPECT_LT(light_at(lit.lit, {0, 2.2f, 0}, {1, 0, 0}).irradiance.x, 0.01f);
     EXPECT_LT(light_at(lit.lit, {0, 0.98f, 0}, {1, 0, 0}).irradiance.x, 0.02f) << "below it";
+
+    // Put in place, by links that stand: the same texels, whatever light was there before.
+    const StandingLinks standing = standing_links(cut.patches, &cut.near);
+    std::vector<glm::vec4> texels = near_texels(cut.near);
+    ASSERT_EQ(texels.size(), lit.light.near.size());
+    EXPECT_NE(texels, lit.light.near);
+    input.standing = &standing;
+    input.near_texels = texels;
+    for (int frame = 0; frame < 2; ++frame) {
+        EXPECT_TRUE(relight(cut.patches, input).near.empty());
+        EXPECT_EQ(texels, lit.light.near);
+        for (std::size_t t = 1; t < texels.size(); t += 4) texels[t].w = 7.0f;
+    }
 }
 
 // A plate hides a lamp from one half of a sill: each of a polygon's four points knows for itself.

@@ -559,6 +559,45 @@ TEST(Patches, ABackdropIsPatchesNearTheScene)
     EXPECT_GT(ground_links, p.rays / 3);
 }
 
+// Open ground under a lamp of 1 m: wide cells, but beside the lamp none that is longer than its distance.
+TEST(Patches, CellsBesideALampAreNoLongerThanItsDistance)
+{
+    Scene scene = patch_scenes::empty_scene();
+    patch_scenes::add_face(scene, {-15, 0, 15}, {30, 0, 0}, {0, 0, -30});
+    const auto edge_at = [](const Cut& cut, glm::vec3 at) {
+        const auto leaf = patch_at(cut.patches, at, {0, 1, 0});
+        return leaf ? cut.patches.level_cell_m(level_of(cut.patches.key[*leaf])) : 0.0f;
+    };
+    const Cut dark(scene, {});
+    EXPECT_GT(edge_at(dark, {3, 0, 2}), 1.0f);
+    Light lamp;
+    lamp.position_m = {3, 1, 2};
+    lamp.intensity = 100.0f;
+    scene.lights.push_back(lamp);
+    const Cut lit(scene, {});
+    const Patches& p = lit.patches;
+    EXPECT_LT(p.count, dark.patches.count + 200u);
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        float nearest_m = 100.0f;
+        for (std::size_t k = 0; k < kPatchSamples; ++k)
+            nearest_m = std::min(nearest_m, glm::distance(sample_point(lit.triangles, p.samples[i * kPatchSamples + k]).position_m, lamp.position_m));
+        EXPECT_LE(p.level_cell_m(level_of(p.key[i])), nearest_m);
+    }
+    EXPECT_EQ(edge_at(lit, {-10, 0, -10}), edge_at(dark, {-10, 0, -10}));
+    // The sun is no lamp, nor is what gives no light; near so many as these cells would be small everywhere.
+    const auto like_dark = [&](const std::vector<Light>& lights) {
+        Scene other = scene;
+        other.lights = lights;
+        return Cut(other, {}).patches.count == dark.patches.count;
+    };
+    Light sun = lamp, off = lamp;
+    sun.kind = LightKind::Directional;
+    off.intensity = 0.0f;
+    EXPECT_TRUE(like_dark({sun}));
+    EXPECT_TRUE(like_dark({off}));
+    EXPECT_TRUE(like_dark(std::vector<Light>(65, lamp)));
+}
+
 // Hills of 200 m under the open sky: nothing is near, and each slope has its own sun.
 TEST(Patches, SlopesOfALandscapeAreApart)
 {

@@ -11,6 +11,7 @@
 #include "gpu/frame/place_io.h"
 #include "scene/basins/water.h"
 #include "scene/material_table.h"
+#include "scene/patches/visible_way.h"
 
 namespace petrichor::gpu {
 
@@ -212,11 +213,12 @@ struct Looks {
     std::vector<Material> materials;
     const PlaceWeather* place;    // null: not of these patches
     std::vector<float> ponds;
-    glm::vec3 rain;
+    scene::VisibleWay rain;
 
     float pond(std::uint32_t patch) const { return ponds.empty() ? 0.0f : ponds[patch]; }
 
-    Look of(const Surface& surface) const
+    // Flat: the frame's weather and look are structures that a call takes by value.
+    [[gnu::flatten]] Look of(const Surface& surface) const
     {
         const Material& material = materials[surface.material];
         const Material& before = scene.materials[surface.material];
@@ -250,7 +252,7 @@ struct Looks {
                 state_of_place(m, weather, snow_line, texels, pond(surface.patch)),
                 closed, look);
         } else if (!m.sheltered && any_weather(weather, m)) {
-            const float open = shelter ? scene::visible_share(surface.visible, rain) : 1.0f;
+            const float open = shelter ? rain.share(surface.visible) : 1.0f;
             shared::SurfaceState state = state_of(m, weather, snow_line, surface.normal.y, open);
             if (m.wetness != Wetness::None)
                 state.water = std::max(state.water, pond(surface.patch));
@@ -278,7 +280,7 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
                       changed(scene.materials, changes),
                       belongs(place, p) ? place : nullptr,
                       ponds_over(place, p),
-                      against_rain(weather.wind_m_s)};
+                      scene::VisibleWay(against_rain(weather.wind_m_s))};
     PatchLook result;
     result.albedo.reserve(p.count);
     result.emission.reserve(p.count);

@@ -110,7 +110,7 @@ void PatchLights::load(std::shared_ptr<const PatchScene> scene)
     }
     const scene::Patches& p = scene_->patches;
     rim_ = rim_of(p);
-    standing_ = scene::standing_links(p);
+    standing_ = scene::standing_links(p, &scene_->near);
     const scene::LookupWays ways = scene::lookup_ways(p, &scene_->near);
     make_buffers(p.nodes(), ways.table.size(), ways.ways.size(),
                  std::max<std::size_t>(4 * scene_->near.entries(), 1));
@@ -119,6 +119,8 @@ void PatchLights::load(std::shared_ptr<const PatchScene> scene)
     std::memcpy(table_->mapped, ways.table.data(), ways.table.size() * sizeof(ways.table[0]));
     std::memcpy(ways_->mapped, ways.ways.data(), ways.ways.size() * sizeof(ways.ways[0]));
     std::memcpy(planes_->mapped, planes.data(), planes.size() * sizeof(planes[0]));
+    const auto near = scene::near_texels(scene_->near);
+    std::memcpy(near_->mapped, near.data(), near.size() * sizeof(near[0]));
 }
 
 void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene_sun,
@@ -220,6 +222,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     input.glow = &scene_->glow;
     input.near = &scene_->near;
     input.standing = &standing_;
+    input.near_texels = {reinterpret_cast<glm::vec4*>(near_->mapped), 4 * scene_->near.entries()};
     input.near_albedo = look.near_albedo;
     input.near_direct = near_direct;
     input.near_emission = look.near_emission;
@@ -229,8 +232,6 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
                 lit.irradiance.size() * sizeof(lit.irradiance[0]));
     std::memcpy(gradient_->mapped, lit.gradient.data(),
                 lit.gradient.size() * sizeof(lit.gradient[0]));
-    if (!lit.near.empty())
-        std::memcpy(near_->mapped, lit.near.data(), lit.near.size() * sizeof(lit.near[0]));
     radiosity_ = lit.radiosity;
     rough_radiosity_ = lit.radiosity;
     if (frame.emissive_lights) {

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "scene/patches/detail/sampling.h"
 #include "scene/patches/detail/sight_groups.h"
+#include "scene/patches/lamps.h"
 
 namespace petrichor::scene {
 
@@ -78,6 +79,8 @@ constexpr std::size_t kTrianglesAJob = 2048;
 // A triangle larger than so many cells is quartered, so that what lies in finished cells is skipped.
 constexpr float kCellsAPiece = 16.0f;
 constexpr int kDeepestQuartering = 24;
+// The longest cell beside a lamp, over its distance.
+constexpr float kLampShare = 1.0f;
 
 struct RawSample {
     shared::PatchKey key;
@@ -103,7 +106,11 @@ enum class Known { Nothing, Split, Done };
 class Grower {
 public:
     Grower(const Tracer& tracer, const CellPlan& plan, const PatchOptions& options)
-        : tracer_(tracer), triangles_(tracer.triangles()), plan_(plan), options_(options)
+        : tracer_(tracer),
+          triangles_(tracer.triangles()),
+          plan_(plan),
+          options_(options),
+          lamps_m_(lamps_that_cut(triangles_.scene()))
     {
     }
 
@@ -149,6 +156,7 @@ private:
                   std::span<Outlook> outlooks) const;
     Outlook look_out(const SamplePoint& point, std::uint64_t hash) const;
     bool holds_content(const Cell& cell) const;
+    bool near_a_lamp(const Cell& cell) const;
     std::vector<PatchSample> outsiders(const Cell& cell, const RawSample* const* raw, std::size_t count, std::uint64_t hash) const;
     void settle();
 
@@ -164,6 +172,7 @@ private:
     int level_ = 0;
     CellMap map_;
     std::vector<Cell> cells_;
+    std::vector<glm::vec3> lamps_m_;
 };
 
 Known Grower::known(glm::ivec3 cell0, int axis, int level) const
@@ -393,6 +402,18 @@ bool Grower::holds_content(const Cell& cell) const
                        });
 }
 
+// Light of a lamp changes within its distance: cells are cut that are longer than a share of it.
+bool Grower::near_a_lamp(const Cell& cell) const
+{
+    const float near_m = cell_edge_m(level_) / kLampShare;
+    return std::any_of(lamps_m_.begin(), lamps_m_.end(), [&](const glm::vec3& lamp_m) {
+        return std::any_of(cell.samples.begin(), cell.samples.begin() + cell.points, [&](const PatchSample& s) {
+            const glm::vec3 way = triangles_.point(s.triangle, s.at) - lamp_m;
+            return glm::dot(way, way) < near_m * near_m;
+        });
+    });
+}
+
 constexpr int kMoreAsked = 32;
 constexpr int kLeastOuter = 3;
 
@@ -543,9 +564,9 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
         // Sun and snow tell the slopes of a hill apart, though all of them see nothing but the sky.
         const bool bends = cell_edge_m(level_) > plan_.slope_m &&
                            length < (1.0f - kBends) * static_cast<float>(cell.points);
-        if (coarse || bends || cell_edge_m(level_) * mean > 0.25f)
+        if (coarse || bends || cell_edge_m(level_) * mean > 0.25f || near_a_lamp(cell))
             cell.state = CellState::Split;
-    } else if (level_ == 1 && groups && (groups->large() || shut != 0)) {
+    } else if (level_ == 1 && groups && (groups->large() || shut != 0 || near_a_lamp(cell))) {
         cell.state = CellState::Split;
     }
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "formulas/light/near_light.h"
 #include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/near_rays.h"
 #include "scene/patches/detail/sampling.h"
@@ -21,6 +22,8 @@ constexpr std::size_t kJudged = 24;     // candidates whose light is guessed
 constexpr std::size_t kTried = 16;      // and whose sight is traced
 constexpr std::size_t kSightPoints = 8;
 constexpr std::size_t kSightRays = 24;  // of all of them
+constexpr float kHeightsAlike = 0.01f;  // variance of heights that tells as much as nothing
+constexpr float kFaintest = 0.25f;      // of the most that a point sees, for it to count
 constexpr std::size_t kNoRay = std::numeric_limits<std::size_t>::max();
 constexpr int kSightDirections = 64;
 constexpr std::size_t kFewReceivers = 4;
@@ -481,11 +484,11 @@ std::vector<NearChoice> NearChooser::chosen(std::uint32_t patch, std::span<const
         const NearCandidate& c = candidates[i];
         if (merit[i] < kLeastMerit || guesses[c.guess].sent.empty()) continue;
         const NearPolygon polygon = part_of(c.face, c.back, around);
-        const float seen =
+        const auto [seen, packed] =
             seen_share(c, polygon, around, mixed(hash, 2 * std::uint64_t{c.face} + (c.back ? 1 : 0)));
         const float left = merit[i] * seen * seen;
         if (seen == 0.0f || left < kLeastMerit) continue;
-        tried.push_back({left, {c.face, c.back, corners_of(polygon), seen, guesses[c.guess].shown}});
+        tried.push_back({left, {c.face, c.back, corners_of(polygon), packed, guesses[c.guess].shown}});
         largest.push_back(left);
         std::push_heap(largest.begin(), largest.end(), std::greater<>());
         if (largest.size() <= kKept) continue;
@@ -559,8 +562,8 @@ std::vector<NearChooser::Look> NearChooser::looks(const SamplePoint& p, const Ne
 
 // From those points that see most of it rays to places of it: the share whose product with the form factor errs least, by
 // its square, over the points.
-float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon& polygon, const Surroundings& around,
-                              std::uint64_t hash) const
+NearChooser::Seen NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon& polygon, const Surroundings& around,
+                                          std::uint64_t hash) const
 {
     const auto corners = corners_of(polygon);
     const glm::vec3 n = front_of(corners);
@@ -574,7 +577,15 @@ float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon&
         }
     }
     std::stable_sort(order.begin(), order.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
-    if (order.size() > kSightPoints) order.resize(kSightPoints);
+    // Those that see the most are all beside it: where a frame stands before a pane, others see less of it.
+    const auto faint = std::find_if(order.begin(), order.end(), [&](const auto& one) { return one.first < kFaintest * order.front().first; });
+    const auto many = static_cast<std::size_t>(faint - order.begin());
+    if (many > kSightPoints) {
+        for (std::size_t k = 0; k < kSightPoints; ++k) order[k] = order[k * many / kSightPoints];
+        order.resize(kSightPoints);
+    } else if (order.size() > kSightPoints) {
+        order.resize(kSightPoints);
+    }
     // Of a look: by which of the points, what it brings, and its way, where it may arrive.
     struct Asked {
         std::size_t point;
@@ -605,7 +616,10 @@ float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon&
     std::array<bool, kSightRays> blocked{};
     assert(rays.size() <= blocked.size());
     tracer_.blocked(rays, blocked);
-    float all = 0.0f, seen = 0.0f;
+    // Over the height before its plane as a line, as far as the points' heights differ.
+    struct Sum {
+        float weight = 0.0f, seen = 0.0f, height = 0.0f, product = 0.0f, square = 0.0f;
+    } sum;
     for (std::size_t i = 0, a = 0; i < order.size(); ++i) {
         float brought = 0.0f, arrived = 0.0f;
         for (; a < asked.size() && asked[a].point == i; ++a) {
@@ -613,11 +627,19 @@ float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon&
             if (asked[a].open && (asked[a].ray == kNoRay || !blocked[asked[a].ray])) arrived += asked[a].weight;
         }
         if (!(brought > 0.0f)) continue;
-        const float factor = order[i].first;
-        all += factor * factor;
-        seen += factor * factor * (arrived / brought);
+        const float weight = order[i].first * order[i].first, share = arrived / brought;
+        const float height = std::clamp(glm::dot(around.points[order[i].second].position_m - corners[0], n) / regular, 0.0f, 1.0f);
+        sum.weight += weight;
+        sum.seen += weight * share;
+        sum.height += weight * height;
+        sum.product += weight * height * share;
+        sum.square += weight * height * height;
     }
-    return all > 0.0f ? seen / all : 0.0f;
+    if (!(sum.weight > 0.0f)) return {0.0f, shared::near_seen_packed(0.0f, 0.0f)};
+    const float mean = sum.seen / sum.weight, middle = sum.height / sum.weight;
+    const float varies = std::max(sum.square / sum.weight - middle * middle, 0.0f);
+    const float slope = (sum.product / sum.weight - middle * mean) / (varies + kHeightsAlike);
+    return {mean, shared::near_seen_packed(mean - slope * middle, mean + slope * (1.0f - middle))};
 }
 
 }  // namespace petrichor::scene

@@ -32,7 +32,7 @@ struct NearChoice {
     std::uint32_t face;
     bool back;
     std::array<glm::vec3, 4> corners;
-    float seen;  ///< share of it, from the patch
+    float seen;  ///< share of it, from the patch (shared::near_seen)
     NearSourceKey source;  ///< as it is shown
 };
 
@@ -76,8 +76,12 @@ private:
     struct Look;
     std::vector<Look> looks(const SamplePoint& p, const NearPolygon& polygon, glm::vec3 n, std::size_t rays,
                             std::uint64_t hash) const;
-    float seen_share(const NearCandidate& candidate, const NearPolygon& polygon, const Surroundings& around,
-                     std::uint64_t hash) const;
+    struct Seen {
+        float mean;
+        float packed;
+    };
+    Seen seen_share(const NearCandidate& candidate, const NearPolygon& polygon, const Surroundings& around,
+                    std::uint64_t hash) const;
 
     const Patches& patches_;
     const Tracer& tracer_;
