@@ -37,14 +37,14 @@ Four four(glm::vec3 v)
 Four sum_of_row(const std::vector<Four>& sent, const std::uint16_t* row, std::size_t rays)
 {
     Four a{}, b{}, c{}, d{};
-    std::size_t r = 0;
-    for (; rays - r >= 4; r += 4) {
+    const std::size_t fours = rays - rays % 4;
+    for (std::size_t r = 0; r < fours; r += 4) {
         a += sent[row[r]];
         b += sent[row[r + 1]];
         c += sent[row[r + 2]];
         d += sent[row[r + 3]];
     }
-    for (; r < rays; ++r) a += sent[row[r]];
+    for (std::size_t r = fours; r < rays; ++r) a += sent[row[r]];
     return (a + b) + (c + d);
 }
 
