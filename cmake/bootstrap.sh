@@ -8,11 +8,11 @@ sources=(base formulas weather texproc scene gpu demo film cli cmake CMakeLists.
 
 # To build and run the program. openimageio-tools is there because the CMake package of the image
 # library stops without it.
-packages_to_build=(g++ cmake ninja-build libvulkan-dev mesa-vulkan-drivers glslang-tools glslang-dev spirv-tools
+packages_to_build=(g++ cmake ninja-build python3 libvulkan-dev mesa-vulkan-drivers glslang-tools glslang-dev spirv-tools
     libopenimageio-dev openimageio-tools libopenexr-dev libimath-dev zlib1g-dev libpng-dev libzstd-dev libseccomp-dev libglm-dev
     libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libnetcdf-dev libeccodes-dev libdraco-dev libastcenc-dev libopencolorio-dev
     ffmpeg)
-packages_to_test=(libgtest-dev libgmock-dev vulkan-validationlayers python3)
+packages_to_test=(libgtest-dev libgmock-dev vulkan-validationlayers)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -39,7 +39,7 @@ void lux_roughness(const MapSurface& surface, const PrefilterOptions& options, P
                     "Use the rule lux-formula.");
     }
     const std::size_t texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-    const auto codes = [&](const Plane& plane) {
+    const auto codes = [&](const MapPlane& plane) {
         std::vector<float> values(texels);
         plane_values(plane, 0, texels, values.data());
         std::vector<std::uint8_t> all(texels);

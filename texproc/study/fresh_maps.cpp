@@ -82,7 +82,7 @@ Nearest nearest(const Dice& dice, int x, int y, int cell, float jitter)
 }
 
 // Lacquer with orange peel and straight scratches, sparse.
-Texel lacquer(const Dice& d, int x, int y, int size)
+MadeTexel lacquer(const Dice& d, int x, int y, int size)
 {
     const float p = d(0, 0.1f, 0.22f);
     const int lines = d.whole(1, 8, 30);
@@ -100,7 +100,7 @@ Texel lacquer(const Dice& d, int x, int y, int size)
 }
 
 // Round rivets on sheet metal.
-Texel rivets(const Dice& d, int x, int y, int)
+MadeTexel rivets(const Dice& d, int x, int y, int)
 {
     const int cell = d.whole(0, 20, 44);
     const float radius = d(1, 0.12f, 0.25f) * static_cast<float>(cell);
@@ -116,7 +116,7 @@ Texel rivets(const Dice& d, int x, int y, int)
 }
 
 // Stones with water between them.
-Texel gravel(const Dice& d, int x, int y, int)
+MadeTexel gravel(const Dice& d, int x, int y, int)
 {
     const int cell = d.whole(0, 6, 16);
     const Nearest s = nearest(d, x, y, cell, 0.8f);
@@ -133,7 +133,7 @@ Texel gravel(const Dice& d, int x, int y, int)
 }
 
 // Threads over and under each other.
-Texel cloth(const Dice& d, int x, int y, int)
+MadeTexel cloth(const Dice& d, int x, int y, int)
 {
     const int thread = d.whole(0, 3, 7);
     const float steep = d(1, 0.4f, 1.0f);
@@ -144,12 +144,12 @@ Texel cloth(const Dice& d, int x, int y, int)
         2.0f * (static_cast<float>(y % thread) + 0.5f) / static_cast<float>(thread) - 1.0f;
     const bool along_y = (i + j * d.whole(2, 1, 3)) % 2 == 0;
     const float fuzz = 0.08f * d.at(x, y).gaussian(1);
-    return along_y ? Texel{steep * u + fuzz, 0.4f * steep * v, d(3, 0.35f, 0.7f)}
-                   : Texel{0.4f * steep * u, steep * v + fuzz, d(3, 0.35f, 0.7f) + 0.1f};
+    return along_y ? MadeTexel{steep * u + fuzz, 0.4f * steep * v, d(3, 0.35f, 0.7f)}
+                   : MadeTexel{0.4f * steep * u, steep * v + fuzz, d(3, 0.35f, 0.7f) + 0.1f};
 }
 
 // Dents of a round hammer in polished metal.
-Texel hammered(const Dice& d, int x, int y, int)
+MadeTexel hammered(const Dice& d, int x, int y, int)
 {
     const int cell = d.whole(0, 9, 26);
     const Nearest s = nearest(d, x, y, cell, 0.7f);
@@ -158,13 +158,13 @@ Texel hammered(const Dice& d, int x, int y, int)
 }
 
 // Two glosses, flat.
-Texel glosses(const Dice& d, int x, int y, int)
+MadeTexel glosses(const Dice& d, int x, int y, int)
 {
     const int edge = d.whole(0, 1, 9);
     return {0, 0, ((x / edge) + (y / edge)) % 2 ? d(1, 0.08f, 0.3f) : d(2, 0.55f, 0.95f)};
 }
 
-Texel corrugated(const Dice& d, int x, int y, int)
+MadeTexel corrugated(const Dice& d, int x, int y, int)
 {
     const float angle = d(0, 0.0f, 3.14f), wave = 6.2831853f / d(1, 5, 40);
     const float nx = std::cos(angle), ny = std::sin(angle);
@@ -174,7 +174,7 @@ Texel corrugated(const Dice& d, int x, int y, int)
 }
 
 // Clear ice with frost in patches.
-Texel ice(const Dice& d, int x, int y, int)
+MadeTexel ice(const Dice& d, int x, int y, int)
 {
     const float fx = static_cast<float>(x), fy = static_cast<float>(y);
     const Wave large = noise(d, fx, fy, d(0, 20, 60), 3), fine = noise(d, fx, fy, d(1, 4, 9), 4);
@@ -187,7 +187,7 @@ Texel ice(const Dice& d, int x, int y, int)
 }
 
 // Chippings, the lower part of them wet.
-Texel wet_asphalt(const Dice& d, int x, int y, int)
+MadeTexel wet_asphalt(const Dice& d, int x, int y, int)
 {
     const float fx = static_cast<float>(x), fy = static_cast<float>(y);
     const Wave stone = noise(d, fx, fy, d(0, 3, 7), 3);
@@ -199,7 +199,7 @@ Texel wet_asphalt(const Dice& d, int x, int y, int)
 }
 
 // Small glass tiles, each tilted its own way, in mortar.
-Texel mosaic(const Dice& d, int x, int y, int)
+MadeTexel mosaic(const Dice& d, int x, int y, int)
 {
     const int tile = d.whole(0, 6, 14), joint = d.whole(1, 1, 2);
     const Place grain = d.at(x, y);
@@ -212,7 +212,7 @@ Texel mosaic(const Dice& d, int x, int y, int)
 }
 
 // Dull sand with single bright grains.
-Texel mica(const Dice& d, int x, int y, int)
+MadeTexel mica(const Dice& d, int x, int y, int)
 {
     const Place grain = d.at(x, y);
     const float rough = d(0, 0.1f, 0.4f);
@@ -222,7 +222,7 @@ Texel mica(const Dice& d, int x, int y, int)
 }
 
 // Brushed at an angle; strokes of some width.
-Texel strokes(const Dice& d, int x, int y, int)
+MadeTexel strokes(const Dice& d, int x, int y, int)
 {
     const float angle = d(0, 0.0f, 3.14f), nx = std::cos(angle), ny = std::sin(angle);
     const int stroke = static_cast<int>(
@@ -234,7 +234,7 @@ Texel strokes(const Dice& d, int x, int y, int)
 }
 
 // A slow ramp of gloss over fine bumps.
-Texel ramp(const Dice& d, int x, int y, int size)
+MadeTexel ramp(const Dice& d, int x, int y, int size)
 {
     const Place grain = d.at(x, y);
     const float t =
@@ -245,7 +245,7 @@ Texel ramp(const Dice& d, int x, int y, int size)
 }
 
 // Facets of a crystal: flat, steep, all one gloss.
-Texel facets(const Dice& d, int x, int y, int)
+MadeTexel facets(const Dice& d, int x, int y, int)
 {
     const Nearest s = nearest(d, x, y, d.whole(0, 8, 30), 0.9f);
     const float tilt = d(1, 0.1f, 0.6f);
@@ -258,7 +258,7 @@ std::vector<ScoredMaps> fresh_maps(int size, std::uint32_t seed)
 {
     struct Kind {
         const char* name;
-        Texel (*surface)(const Dice&, int, int, int);
+        MadeTexel (*surface)(const Dice&, int, int, int);
         float width, height;  // of size
     };
     static constexpr Kind kKinds[] = {{"lacquer", lacquer, 1.0f, 1.0f},

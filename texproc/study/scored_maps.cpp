@@ -16,7 +16,7 @@ namespace {
 using namespace detail;
 
 // Flakes of 3 x 3 texels at random angles, half of the area, in a smooth lacquer.
-Texel glitter(int x, int y)
+MadeTexel glitter(int x, int y)
 {
     const Place flake = place(x / 3, y / 3);
     if (flake.uniform(9) < 0.5f) return {0.0f, 0.0f, 0.35f};
@@ -24,7 +24,7 @@ Texel glitter(int x, int y)
 }
 
 // Strokes along y: slopes across them only.
-Texel brushed(int x, int y)
+MadeTexel brushed(int x, int y)
 {
     const Place stroke = place(x, 0), grain = place(x, y);
     return {0.3f * stroke.gaussian(0) + 0.03f * grain.gaussian(1), 0.01f * grain.gaussian(2),
@@ -32,7 +32,7 @@ Texel brushed(int x, int y)
 }
 
 // Polished tiles with joints and some matt tiles among them.
-Texel two_gloss(int x, int y, int size)
+MadeTexel two_gloss(int x, int y, int size)
 {
     const int tile = size / 8;
     const bool joint = x % tile < 3 || y % tile < 3;
@@ -45,13 +45,13 @@ Texel two_gloss(int x, int y, int size)
                    : 0.1f};
 }
 
-Texel rough_noise(int x, int y)
+MadeTexel rough_noise(int x, int y)
 {
     const Place grain = place(x, y);
     return {0.6f * grain.gaussian(0), 0.6f * grain.gaussian(1), 0.75f + 0.25f * grain.uniform(7)};
 }
 
-Texel checker(int x, int y)
+MadeTexel checker(int x, int y)
 {
     const float sign = ((x / 2) + (y / 2)) % 2 ? 1.0f : -1.0f;
     const Place grain = place(x, y);
@@ -60,7 +60,7 @@ Texel checker(int x, int y)
 }
 
 // A mirror (alpha 0.0036) crossed by fine scratches in many directions.
-Texel scratched(int x, int y, int size)
+MadeTexel scratched(int x, int y, int size)
 {
     for (std::uint32_t k = 0; k < 48; ++k) {
         const Place line = place(static_cast<int>(k), 77);

@@ -60,7 +60,7 @@ MapSurface make_surface(const ImageRef& normal, const ImageRef& rough,
     s.green_down = options.green_down;
     const std::size_t texels =
         static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
-    for (const Plane& plane : {s.x, s.y, s.z, s.rough}) {
+    for (const MapPlane& plane : {s.x, s.y, s.z, s.rough}) {
         if (all_finite(plane, texels)) continue;
         throw Error("prefilter: an input holds values that are not numbers",
                     "Repair the NaN or infinite pixels first.");

@@ -22,7 +22,7 @@ float half_value(const std::byte* p)
 
 }  // namespace
 
-void plane_values(const Plane& plane, std::size_t first, std::size_t count, float* to)
+void plane_values(const MapPlane& plane, std::size_t first, std::size_t count, float* to)
 {
     const std::size_t size = size_of(plane.type);
     const std::size_t step = size * static_cast<std::size_t>(plane.channels);
@@ -78,7 +78,7 @@ void fetch(const MapSurface& s, int y, SurfaceRow& row)
     }
 }
 
-bool all_finite(const Plane& plane, std::size_t texels)
+bool all_finite(const MapPlane& plane, std::size_t texels)
 {
     if (!plane.data || plane.type == PixelType::U8 || plane.type == PixelType::U16) return true;
     constexpr std::size_t kPart = 4096;

@@ -9,7 +9,7 @@
 namespace petrichor::texproc::detail {
 
 /// One channel of an image, in the numbers of its file. Null data: not there.
-struct Plane {
+struct MapPlane {
     const std::byte* data = nullptr;
     PixelType type = PixelType::F32;
     int channels = 1;
@@ -20,8 +20,8 @@ struct Plane {
 /// no more memory than its files.
 struct MapSurface {
     int width = 0, height = 0;
-    Plane x, y, z;  ///< 0..1 codes of the normal; without z it is rebuilt
-    Plane rough;    ///< perceptual roughness, or smoothness
+    MapPlane x, y, z;  ///< 0..1 codes of the normal; without z it is rebuilt
+    MapPlane rough;    ///< perceptual roughness, or smoothness
     bool smoothness = false;
     bool alpha = false;  ///< the map holds alpha (or 1 - alpha), not its root
     bool green_down = false;
@@ -36,10 +36,10 @@ struct SurfaceRow {
 void fetch(const MapSurface& surface, int y, SurfaceRow& row);
 
 /// Texels first .. first + count - 1 of a plane, as stored (integers as 0..1).
-void plane_values(const Plane& plane, std::size_t first, std::size_t count, float* to);
+void plane_values(const MapPlane& plane, std::size_t first, std::size_t count, float* to);
 
 /// True when every value of the plane is a finite number.
-bool all_finite(const Plane& plane, std::size_t texels);
+bool all_finite(const MapPlane& plane, std::size_t texels);
 
 }  // namespace petrichor::texproc::detail
 

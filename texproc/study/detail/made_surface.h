@@ -41,18 +41,18 @@ inline Place place(int x, int y)
     return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
 }
 
-struct Texel {
+struct MadeTexel {
     float slope_x = 0.0f, slope_y = 0.0f, p = 0.5f;
 };
 
-/// surface(x, y) -> Texel
+/// surface(x, y) -> MadeTexel
 template <class Surface>
 ScoredMaps made_material(std::string name, int width, int height, const Surface& surface)
 {
     Image n(width, height, 3, ColorSpace::Data), r(width, height, 1, ColorSpace::Data);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const Texel t = surface(x, y);
+            const MadeTexel t = surface(x, y);
             const float length = std::sqrt(1.0f + t.slope_x * t.slope_x + t.slope_y * t.slope_y);
             n.at(x, y, 0) = 0.5f - 0.5f * t.slope_x / length;
             n.at(x, y, 1) = 0.5f - 0.5f * t.slope_y / length;
