@@ -1,5 +1,5 @@
 // The main of a program of tests, which is one test of ctest: ctest is told by an exit code of its own that tests were
-// skipped and none failed. With --of=a_test.cpp,b_test.cpp only tests of these sources run: a part of a program of many.
+// skipped and none failed. With --of=NAME,NAME (files of tests) only tests of these sources run: a part of a program of many.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
