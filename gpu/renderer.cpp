@@ -11,6 +11,7 @@
 #include "gpu/check_frame.h"
 #include "gpu/frame/metering.h"
 #include "gpu/icicles/icicle_body.h"
+#include "gpu/lighting/models_io.h"
 #include "gpu/snow/frame_tracks.h"
 #include "gpu/snow/snow_body.h"
 #include "gpu/surface_path.h"
@@ -37,6 +38,18 @@ std::vector<SampleRange> sample_ranges(const Frame& frame, const GpuScene& scene
         }
     }
     return ranges;
+}
+
+// How often a pixel of the frame may go over its lights, whatever of the scene is in view.
+std::size_t light_walks(const FrameSettings& settings, const GpuScene& scene)
+{
+    const bool split = std::any_of(settings.aovs.begin(), settings.aovs.end(), [](const std::string& name) { return takes_light_apart(aov_row(name)); });
+    bool gathers = false, left_alone = false;
+    for (const GpuMaterial& material : scene.materials()) {
+        gathers = gathers || (settings.light_prepass && scene.lighting_models().gathers(material.lighting_model));
+        left_alone = left_alone || material.lighting_model == LIGHTING_MODEL_UNLIT_SHADOWED;
+    }
+    return 1u + (split ? 1u : 0u) + (gathers ? 2u : 0u) + (left_alone ? 2u : 0u);
 }
 
 }  // namespace
@@ -146,12 +159,13 @@ struct Renderer::Impl {
         light_table = make_light_table(device, *light_arena, lights, params);
         vertex_light.prepare(scene->draws(), light_table, params.in_view);
         check_light_lists(device.limits(), light_table.count, frame.settings.width, frame.settings.height);
-        if (light_table.count > kLightsAnywhere) {
+        const std::size_t walks = light_walks(frame.settings, *scene);
+        if (light_table.count * walks > kLightsAnywhere) {
             std::vector<shared::FrameConstants> views;
             const bool one = params.in_view != nullptr;
             for (int i = 0; i < (one ? 1 : frame.settings.samples); ++i)
                 views.push_back(frame_constants(frame, by_day, scene->bounds(), static_cast<std::uint32_t>(i)));
-            check_light_crowd(light_table, frame.settings, views);
+            check_light_crowd(light_table, frame.settings, views, walks);
         }
         return facts;
     }
@@ -181,7 +195,10 @@ struct Renderer::Impl {
         const auto pixels =
             static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);
         if (s.exposed_light && targets.display->size < pixels * 8)
-            targets.display = set.arena->buffer({.name = "display", .size = pixels * 8, .host = true});
+            targets.display = set.arena->buffer({.name = "display",
+                                                 .size = pixels * 8,
+                                                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                 .host = true});
         for (std::size_t i = 0; i < aov_groups.size(); ++i) {
             const VkDeviceSize size = aov_groups[i].numbers * pixels * sizeof(float);
             if (i >= targets.aovs.size()) targets.aovs.emplace_back();

@@ -16,6 +16,12 @@ VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment)
     return (value + alignment - 1) / alignment * alignment;
 }
 
+VkMemoryPropertyFlags memory_flags(const BufferDesc& desc)
+{
+    return desc.host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+                     : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+}
+
 ImageViewHandle make_view(const Device& device, const GpuImage& image, VkImageViewType type,
                           std::uint32_t first_mip, std::uint32_t mips)
 {
@@ -184,10 +190,7 @@ std::unique_ptr<GpuBuffer> MemoryArena::buffer(const BufferDesc& desc)
     auto made = unbound_buffer(desc);
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device_->handle(), made->buffer.get(), &needs);
-    const VkMemoryPropertyFlags flags =
-        desc.host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
-                  : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    bind(*made, place(needs, flags, false), desc);
+    bind(*made, place(needs, memory_flags(desc), false), desc);
     return made;
 }
 
@@ -202,14 +205,15 @@ bool MemoryArena::lies_in_rows(const ImageDesc& desc) const
            can.maxExtent.height >= static_cast<std::uint32_t>(desc.height);
 }
 
-ImageInRows MemoryArena::image_in_rows(const ImageDesc& desc, VkDeviceSize texel_bytes)
+ImageInRows MemoryArena::image_in_rows(const ImageDesc& desc, VkDeviceSize texel_bytes, bool host)
 {
     const auto width = static_cast<VkDeviceSize>(std::max(desc.width, 0));
     const BufferDesc rows{.name = desc.name + "_rows",
                           .size = width * static_cast<VkDeviceSize>(std::max(desc.height, 0)) * texel_bytes,
-                          .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                          .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                          .texel_format = desc.format == VK_FORMAT_D32_SFLOAT ? VK_FORMAT_R32_SFLOAT : desc.format};
+                          .texel_format = desc.format == VK_FORMAT_D32_SFLOAT ? VK_FORMAT_R32_SFLOAT : desc.format,
+                          .host = host};
     if (!lies_in_rows(desc)) return {image(desc), buffer(rows)};
     auto own = unbound_image(desc, VK_IMAGE_TILING_LINEAR);
     const VkImageSubresource first{own->aspect(), 0, 0};
@@ -225,7 +229,7 @@ ImageInRows MemoryArena::image_in_rows(const ImageDesc& desc, VkDeviceSize texel
     needs.memoryTypeBits &= besides.memoryTypeBits;
     needs.size = std::max(needs.size, besides.size);
     needs.alignment = std::max(needs.alignment, besides.alignment);
-    const Place where = place(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false);
+    const Place where = place(needs, memory_flags(rows), false);
     bind(*own, where);
     bind(*shown, where, rows);
     shown->shows = own.get();

@@ -73,7 +73,8 @@ public:
     std::unique_ptr<GpuBuffer> buffer(const BufferDesc& desc);
     /// An image of one level, and a buffer with a view of its texels. A CPU's images can lie row by row, so
     /// that a pass that writes one has written the other.
-    ImageInRows image_in_rows(const ImageDesc& desc, VkDeviceSize texel_bytes);
+    /// host: the buffer is mapped.
+    ImageInRows image_in_rows(const ImageDesc& desc, VkDeviceSize texel_bytes, bool host = false);
     VkDeviceSize bytes() const { return bytes_; }
 
 private:

@@ -38,7 +38,10 @@ VkDeviceSize texel_bytes(VkFormat format)
         case VK_FORMAT_R16G16B16A16_SNORM:
         case VK_FORMAT_R16G16B16A16_UNORM:
         case VK_FORMAT_R16G16B16A16_SFLOAT:
+        case VK_FORMAT_R32G32_UINT:
             return 8;
+        case VK_FORMAT_R32G32B32A32_SFLOAT:
+            return 16;
         default:
             return 4;
     }
@@ -190,8 +193,8 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     const auto target = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
         return arena.image(desc(name, format, usage));
     };
-    const auto in_rows = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
-        return arena.image_in_rows(desc(name, format, usage), texel_bytes(format));
+    const auto in_rows = [&](const char* name, VkFormat format, VkImageUsageFlags usage, bool host = false) {
+        return arena.image_in_rows(desc(name, format, usage), texel_bytes(format), host);
     };
     // Drawn into, or written by the resolve of a visibility buffer.
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
@@ -209,7 +212,11 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT,
                                    storage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
-    targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
+    if (targets.lanes == 0) {
+        targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
+    } else {
+        std::tie(targets.accumulated, targets.accumulated_rows) = parted(in_rows("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color));
+    }
 
     const int block = GLOW_BLOCK;
     targets.lamp_glow = arena.image({.name = "lamp_glow",
@@ -258,8 +265,14 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                               PATCH_POINTS * PATCH_POINT_TEXELS * 16,
                       .usage = table,
                       .texel_format = VK_FORMAT_R32G32B32A32_UINT});
-    targets.beauty = arena.buffer({.name = "beauty", .size = pixels * 8, .host = true});
-    targets.display = arena.buffer({.name = "display", .size = pixels * 4, .host = true});
+    if (targets.lanes == 0) {
+        targets.beauty = arena.buffer({.name = "beauty", .size = pixels * 8, .host = true});
+        targets.display = arena.buffer({.name = "display", .size = pixels * 4, .host = true});
+    } else {
+        const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+        std::tie(targets.beauty_drawn, targets.beauty) = parted(in_rows("beauty", VK_FORMAT_R32G32_UINT, drawn, true));
+        std::tie(targets.display_drawn, targets.display) = parted(in_rows("display", VK_FORMAT_R32_UINT, drawn, true));
+    }
     return targets;
 }
 

@@ -65,6 +65,8 @@ struct FrameTargets {
         mirror_weight;                       ///< what a smooth surface reflects of its surroundings
     std::unique_ptr<GpuImage> mirror_shape;  ///< its normal (octahedral), roughness, sky visibility
     std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
+    std::unique_ptr<GpuBuffer> accumulated_rows;  ///< of it, where a CPU draws the picture
+    std::unique_ptr<GpuImage> beauty_drawn, display_drawn;  ///< likewise what it draws, the words of both below
     std::unique_ptr<GpuImage> lamp_glow;  ///< of blocks of pixels; alpha: how far they are
     std::vector<std::unique_ptr<GpuImage>> glare;  ///< levels of half the picture's size and less
     std::unique_ptr<GpuBuffer> coarse_lights;

@@ -35,6 +35,11 @@ bool is_light_part(std::size_t row)
     return row >= gbuffer_aov_count();
 }
 
+bool takes_light_apart(std::size_t row)
+{
+    return is_light_part(row) && layer_of(row) != REFLECTION_LABEL_LAYER;
+}
+
 bool needs_materials(std::size_t row)
 {
     static const std::size_t material = aov_row("material");
@@ -47,7 +52,7 @@ void prepare_light_parts(LightParts& parts, MemoryArena& arena, const std::vecto
     parts.split = parts.label = false;
     for (const std::size_t row : rows) {
         if (!is_light_part(row)) continue;
-        (layer_of(row) == REFLECTION_LABEL_LAYER ? parts.label : parts.split) = true;
+        (takes_light_apart(row) ? parts.split : parts.label) = true;
     }
     const auto image = [&](const char* name, int w, int h, int layers) {
         return arena.image({.name = name,

@@ -29,6 +29,8 @@ struct LightParts {
 
 /// Rows of aov_table() that are of the parts or the label, not of the G-buffer.
 bool is_light_part(std::size_t row);
+/// .. for which the passes keep the light in parts; only the label of reflections needs none.
+bool takes_light_apart(std::size_t row);
 /// Rows that need the number of the material at each pixel.
 bool needs_materials(std::size_t row);
 

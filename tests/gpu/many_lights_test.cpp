@@ -91,7 +91,7 @@ TEST_F(ManyLights, OnOneSpotTheySumUp)
     }
     // Taken apart they are walked once more.
     frame.settings.aovs = {"diffuse_direct"};
-    for (const std::size_t many : {500, 4000}) {
+    for (const std::size_t many : {500, 4000, 20000}) {
         frame.extra_lights.assign(many, light);
         const RenderResult parts = renderer->render(frame);
         const float whole = pixel(parts, 8, 7).g;
@@ -100,9 +100,30 @@ TEST_F(ManyLights, OnOneSpotTheySumUp)
         EXPECT_GT(scattered[(7 * 16 + 8) * 3 + 1], 0.5f * whole) << many;
         EXPECT_LE(scattered[(7 * 16 + 8) * 3 + 1], whole) << many;
     }
+    // Walked twice, so many are not all there (a driver on a CPU ends the loops of the second walk), and that is said.
+    frame.extra_lights.assign(30000, light);
+    EXPECT_THROW(renderer->render(frame), Error);
+    frame.settings.aovs = {"reflection"};  // takes nothing apart
+    EXPECT_NEAR(pixel(renderer->render(frame), 8, 7).g / (one * 30000.0f), 1.0f, 0.01f);
     frame.settings.aovs.clear();
     frame.extra_lights.assign(59000, light);
     EXPECT_THROW(renderer->render(frame), Error) << "drivers cut longer loops short";
+}
+
+// What keeps the shadows alone walks its lights three times.
+TEST_F(ManyLights, AreCountedByEachWalk)
+{
+    Material ground_material = plain_material(glm::vec3(0.6f), 0.8f);
+    ground_material.lighting_model = "unlit_shadowed";
+    renderer->load(scene_of({ground(1.0f)}, {ground_material}), {});
+    Frame frame = dark_frame(look({0, 3, 0.1f}, {0, 0, 0}, 0.3f), 16, 8);
+    Light light;
+    light.range_m = 20.0f;
+    light.position_m = {0, 2, 0};
+    frame.extra_lights.assign(10000, light);
+    EXPECT_GT(pixel(renderer->render(frame), 8, 7).g, 0.0f);
+    frame.extra_lights.assign(20000, light);
+    EXPECT_THROW(renderer->render(frame), Error);
 }
 
 // A street of a city: each pixel sees few of them, and none is left out.

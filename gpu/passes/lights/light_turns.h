@@ -20,8 +20,11 @@ struct LightCrowd {
 /// for loops that have nothing to do with lights.
 inline constexpr std::size_t kMostLightTurns = 64000;
 
-/// So few lights fit wherever they stand.
+/// So few lights fit wherever they stand, where they are walked once.
 inline constexpr std::size_t kLightsAnywhere = 34000;
+
+/// A pixel walks its lights once, for what is taken apart once more, and for what is gathered, and for what shadows leave, twice more.
+inline constexpr std::size_t kMostLightWalks = 6;
 
 /// .. where an invocation lights eight pixels in turns, so few where it walks the lights once, or again for what is taken apart,
 /// gathered or left by shadows.

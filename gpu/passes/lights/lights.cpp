@@ -87,17 +87,19 @@ void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights,
 }
 
 void check_light_crowd(const LightTable& table, const FrameSettings& settings,
-                       const std::vector<shared::FrameConstants>& views)
+                       const std::vector<shared::FrameConstants>& views, std::size_t walks)
 {
-    if (table.count <= kLightsAnywhere) return;
+    if (table.count * walks <= kLightsAnywhere) return;
     LightCrowd crowd{table.count, table.count};
     if (!settings.all_lights) {
         const std::uint32_t ranges = table.ways & (LIGHTS_SHADOWED | LIGHTS_SHADOWED_SHAPED | LIGHTS_PLAIN | LIGHTS_SHAPED);
         crowd = largest_light_crowd(table.balls, std::popcount(ranges), views, settings.width, settings.height);
     }
-    if (crowd.turns <= kMostLightTurns) return;
+    if (crowd.turns * walks <= kMostLightTurns) return;
+    std::string again;
+    if (walks > 1) again = " where a pixel goes over them " + std::to_string(walks) + " times (parts of the light, models that gather or keep shadows alone)";
     throw Error("render: up to " + std::to_string(crowd.lights) + " of " + std::to_string(table.count) +
-                    " lights reach one part of the picture; " + std::to_string(kLightsAnywhere) + " always may",
+                    " lights reach one part of the picture; " + std::to_string(kLightsAnywhere / walks) + " always may" + again,
                 "Give them shorter ranges ([lamps] range_m), or leave out the faintest.");
 }
 
@@ -282,7 +284,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                             static_cast<float>(light->profile) + (light->in_lantern ? 0.5f : 0.0f));
     }
     table.vertex_ways &= LIGHTS_CONE | LIGHTS_PROFILE | LIGHTS_LANTERN;
-    if (table.count > kLightsAnywhere)
+    if (table.count * kMostLightWalks > kLightsAnywhere)
         for (const Light* light : std::span(ordered).first(table.count)) table.balls.emplace_back(light->position_m, reach_m(*light));
     if (texels.empty()) texels.emplace_back(0.0f);
     table.texels = arena.buffer(

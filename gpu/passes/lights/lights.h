@@ -27,7 +27,7 @@ struct LightTable {
     bool rectangles = false;         ///< some are surfaces that glow, without the lobes of those with a size
     bool glows = false;              ///< some are surfaces that glow
     std::uint32_t ways = 0;          ///< LIGHTS_... that some need
-    std::vector<glm::vec4> balls;    ///< centre and reach of each, where there are more than kLightsAnywhere
+    std::vector<glm::vec4> balls;    ///< centre and reach of each, where so many walked so often may be more than kLightsAnywhere
     std::vector<glm::vec4> vertex_balls;  ///< of lamps by vertex, whose rows stand behind those counted here
     std::uint32_t vertex_ways = 0;        ///< LIGHTS_... that those need
     std::vector<Light> shadowed;     ///< that own a shadow, in the order of its maps
@@ -62,8 +62,9 @@ void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights,
 /// Throws Error when so many lights may reach one part of the picture that loops over them could end early.
 ///
 ///   views  of all samples
+///   walks  times that a pixel goes over its lights, 1..kMostLightWalks
 void check_light_crowd(const LightTable& table, const FrameSettings& settings,
-                       const std::vector<shared::FrameConstants>& views);
+                       const std::vector<shared::FrameConstants>& views, std::size_t walks);
 
 struct LightTableParams {
     int shadows = 0;  ///< so many lamps own a shadow: those that give most light at the eye, by intensity over

@@ -7,9 +7,10 @@
 #define RESOLVE_FRAME 0
 #define RESOLVE_SKY_LIGHT 1
 #define RESOLVE_ACCUMULATED 2
-#define RESOLVE_BEAUTY 3
-#define RESOLVE_DISPLAY 4
-#define RESOLVE_GLARE 5
+#define RESOLVE_GLARE 3
+// of the compute shader alone
+#define RESOLVE_BEAUTY 4
+#define RESOLVE_DISPLAY 5
 
 #define RESOLVE_SPEC_TONE_MAP 0  // a number of formulas/color/tone_map.h
 #define RESOLVE_SPEC_BLOOM 1
