@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gpu/frame/frame_io.h"
+#include "gpu/frame/frame_words_io.h"
 #include "gpu/passes/surface/snow_bits.h"
 #include "gpu/passes/surface/surface_draws_io.h"
 #include "gpu/passes/surface/surface_io.h"
@@ -22,6 +23,22 @@ const char* fragment_shader(const GBufferParts& parts)
     if (parts.baked) return parts.weather ? "surface_baked.frag" : "surface_baked_dry.frag";
     if (parts.weather) return parts.emission ? "surface.frag" : "surface_dark.frag";
     return parts.emission ? "surface_dry.frag" : "surface_lean.frag";
+}
+
+// What mirrors as glass does, without grain, has the payload of a cleared target.
+bool all_as_cleared(const GpuScene& scene)
+{
+    const auto& materials = scene.materials();
+    return std::all_of(materials.begin(), materials.end(), [](const GpuMaterial& m) { return (m.besides & BESIDES_AS_CLEARED) != 0; });
+}
+
+void clear_payload(FrameGraph& graph, GpuImage& payload)
+{
+    graph.add(TransferPass{"surface", {{.image = &payload}}, [&payload](VkCommandBuffer commands) {
+                               const VkClearColorValue value{{0.2f, 0.2f, 0.2f, 0.0f}};
+                               const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+                               vkCmdClearColorImage(commands, payload.image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &all);
+                           }});
 }
 
 }  // namespace
@@ -60,8 +77,12 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
     if (layer) {
         assert(colors.size() == SURFACE_LAYER_THROUGH);
         colors.emplace_back(*layer->through);
+    } else if (all_as_cleared(scene)) {
+        clear_payload(graph, *g.payload);
+        colors[GBUFFER_PAYLOAD] = {};
     }
     const SnowBits snow(scene, maps);
+    const std::uint32_t lanes = targets.lanes;
     graph.add(DrawPass{
         .name = layer ? "transparent" : "surface",
         .colors = std::move(colors),
@@ -134,6 +155,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     const std::uint32_t own = scene.materials()[draw->material].own_surface;
                     if (layered && own != 0) shaded.fragment = kOwnTransparentShader;
                     shaded.specialization = {
+                        {FRAME_SPEC_LANES, lanes},
                         {SURFACE_SPEC_HOLES, holes && chance},
                         {SURFACE_SPEC_SLOTS, scene.materials()[draw->material].slots},
                         {SURFACE_SPEC_WATER,

@@ -59,6 +59,9 @@ layout(location = SURFACE_LAYER_THROUGH) out vec4 out_through;
 
 void main()
 {
+#ifdef FRAME_BY_WORDS
+    read_constants();
+#endif
     const float side = gl_FrontFacing ? 1.0 : -1.0;
     SurfaceInput at;
     at.position = in_position;
