@@ -18,8 +18,10 @@ namespace {
 
 static_assert(sizeof(shared::DrawConstants) == SURFACE_DRAW_TEXELS * 16);
 
-const char* fragment_shader(const GBufferParts& parts)
+// plain: all materials have the payload of a cleared target.
+const char* fragment_shader(const GBufferParts& parts, bool plain)
 {
+    if (plain) return "surface_plain.frag";
     if (parts.baked) return parts.weather ? "surface_baked.frag" : "surface_baked_dry.frag";
     if (parts.weather) return parts.emission ? "surface.frag" : "surface_dark.frag";
     return parts.emission ? "surface_dry.frag" : "surface_lean.frag";
@@ -51,9 +53,10 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
     GBuffer& g = targets.gbuffer;
     const GBufferParts parts =
         layer ? GBufferParts{true, true, scene.baked()} : gbuffer_parts(scene, weather.any);
+    const bool plain = !layer && !parts.weather && !parts.emission && all_as_cleared(scene);
     const bool chance = layer ? layer->by_chance : true;
     const std::uint32_t first = layer && layer->first ? 1 : 0;
-    const std::string fragment = layer ? (parts.baked ? "transparent_baked.frag" : "transparent.frag") : fragment_shader(parts);
+    const std::string fragment = layer ? (parts.baked ? "transparent_baked.frag" : "transparent.frag") : fragment_shader(parts, plain);
     Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, texels(*maps.flow_quads)},
@@ -77,7 +80,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
     if (layer) {
         assert(colors.size() == SURFACE_LAYER_THROUGH);
         colors.emplace_back(*layer->through);
-    } else if (all_as_cleared(scene)) {
+    } else if (plain) {
         clear_payload(graph, *g.payload);
         colors[GBUFFER_PAYLOAD] = {};
     }

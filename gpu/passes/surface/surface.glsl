@@ -1,11 +1,15 @@
 // The surface pass: writes the material and the weather at each pixel (evaluate_surface.glsl).
 //
-// Compiled eight times, since a target that nobody reads is not written:
+// Compiled nine times, since a target that nobody reads is not written:
 //   SURFACE_WEATHER   1: masks of water, snow and frost
 //   SURFACE_EMISSION  1: radiance of materials that glow
 //   SURFACE_BAKED     1: light of light maps and of lamps at vertices, with SURFACE_EMISSION only
+//   SURFACE_PLAIN     1: all materials have the payload of a cleared target, which is not written
 //   SURFACE_LAYER     1: a layer of what lets light through (passes/transparent); what it lets through
 //                     has a target of its own behind those of the G-buffer
+#ifndef SURFACE_PLAIN
+#define SURFACE_PLAIN 0
+#endif
 #ifndef SURFACE_LAYER
 #define SURFACE_LAYER 0
 #endif
@@ -49,8 +53,19 @@ layout(location = 8) in vec3 in_lit_back;
 #endif
 #define TARGETS(ROW) \
     GBUFFER_ALWAYS(ROW) WEATHER_TARGETS(ROW) EMISSION_TARGETS(ROW) BAKED_TARGETS(ROW)
-#define ROW(name, location_, format_, when_, meaning_) \
-    layout(location = location_) out vec4 out_##name;
+#define OUTPUT(name, location_) layout(location = location_) out vec4 out_##name;
+#define OUT_color OUTPUT
+#define OUT_normals OUTPUT
+#define OUT_material OUTPUT
+#if SURFACE_PLAIN
+#define OUT_payload(name, location_) vec4 out_##name;
+#else
+#define OUT_payload OUTPUT
+#endif
+#define OUT_weather OUTPUT
+#define OUT_emission OUTPUT
+#define OUT_baked OUTPUT
+#define ROW(name, location_, format_, when_, meaning_) OUT_##name(name, location_)
 TARGETS(ROW)
 #undef ROW
 #if SURFACE_LAYER
