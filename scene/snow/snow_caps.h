@@ -130,10 +130,10 @@ struct DrawnSnow {
 /// than this bank and the snow below there is one sheet. Where there is none the cap lies below the surface.
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m);
 /// Points that are not drawn stay on the ground.
-/// held: of each point, what of the fall the slope of its place holds, where depth_m is of that place already, with its slope:
+/// held_shares: of each point, what of the fall the slope of its place holds, where depth_m is of that place already, with its slope:
 /// from 8 cm on steepness counts once, and a point that is steeper than its place, as the bevel of a stone, holds less of that; up to 3 cm it
 /// counts for the body once more. None: 1, open ground.
-SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn, std::span<const float> held = {});
+SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn, std::span<const float> held_shares = {});
 DrawnSnow all_drawn(const SnowCaps& caps);
 
 }  // namespace petrichor::scene

@@ -183,7 +183,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     return snow_shape(caps, depth_m, all_drawn(caps));
 }
 
-SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn, std::span<const float> held)
+SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const DrawnSnow& drawn, std::span<const float> held_shares)
 {
     const std::size_t count = caps.points.size();
     SnowShape shape{std::vector<vec3>(count), {}, std::vector<float>(count), std::vector<float>(count)};
@@ -205,7 +205,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m, const
         const SnowCaps::Point& p = caps.points[i];
         if (drawn.points[i] != DrawnSnow::kDrawn) shape.positions[i] = p.base_m;
         if (drawn.points[i] == 0) continue;
-        fallen[i] = fallen_m(p, depth_m[i], held.empty() ? 1.0f : held[i]);
+        fallen[i] = fallen_m(p, depth_m[i], held_shares.empty() ? 1.0f : held_shares[i]);
         sheet[i] = sheet_m(p, fallen[i]);
         if (p.bank > 0.0f) {
             if (drawn.points[i] != DrawnSnow::kDrawn) continue;

@@ -296,6 +296,7 @@ TEST_F(Surface, RingsTooSmallToSeeAreRoughness)
     frame.settings.time_s = 0.4;
     Material m = plain_material(glm::vec3(0.5f));
     m.weather.wetness = scene::Wetness::Ripples;
+    m.weather.default_height = -1.0f;  // nothing stands out of it: over 50 m the tops of the ground's relief would
     struct Seen {
         double leans = 0.0, rough = 0.0;
     };
@@ -320,13 +321,13 @@ TEST_F(Surface, RingsTooSmallToSeeAreRoughness)
     for (const float repeats : {1.0f, 2.0f, 5.0f, 12.0f, 40.0f}) {
         const Seen here = seen(1.25f * repeats, 1.0f, m);
         RecordProperty("at_" + std::to_string(static_cast<int>(repeats)), std::to_string(here.leans) + " " + std::to_string(here.rough));
-        EXPECT_NEAR(here.leans + here.rough, all, 0.12 * all) << repeats;
-        EXPECT_GE(here.rough, 0.9 * rough) << repeats;
+        EXPECT_NEAR(here.leans + here.rough, all, 0.03 * all) << repeats;
+        EXPECT_GE(here.rough, 0.97 * rough) << repeats;
         rough = here.rough;
     }
     RecordProperty("all", std::to_string(all));
     RecordProperty("rough", std::to_string(rough));
-    EXPECT_GT(rough, 0.85 * all) << "from afar nothing of them is seen";
+    EXPECT_GT(rough, 0.97 * all) << "from afar nothing of them is seen";
     // The harder the rain; none without it, and none of what has no rings.
     EXPECT_LT(seen(15.0f, 0.2f, m).rough, 0.5 * seen(15.0f, 0.6f, m).rough);
     EXPECT_LT(seen(15.0f, 0.6f, m).rough, seen(15.0f, 1.0f, m).rough);

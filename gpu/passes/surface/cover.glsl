@@ -154,7 +154,15 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         if (rings) ripple = all;
     }
     if ((WATER & WATER_FLOWS) != 0u && max(water.anywhere, water.runs) > 0.0 && fade > 0.001) {
-        flow = flow_wave(at, water, here.still);
+        const WaveAsked asked = waves_asked(at, water, here.still);
+#ifdef LOOKS_LATER
+        if (waves_later()) {
+            waves_left.asked = asked.strength > 0.0;
+            waves_left.waves = asked;
+            waves_left.fade = fade;
+        }
+#endif
+        if (!waves_later()) flow = flow_wave(asked);
     }
     const vec3 rings = vec3(ripple.normal.x, 0.0, ripple.normal.y);
     const vec4 bent = normalize(vec4(rings + flow.lean, ripple.normal.z * flow.up));
@@ -171,7 +179,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     if (!is_steep()) {
         still = normalize(mix(at.normal, vec3(0.0, 1.0, 0.0), level_share(at.normal.y, water.anywhere)));
     }
-    c.normal = normalize(bent.xyz * fade + still * max(mix(1.0, bent.w, fade), 0.05));
+    c.normal = bent_normal(bent, still, fade);
 
     c.water = water.anywhere;
     c.deeper_m = water.deeper_m;

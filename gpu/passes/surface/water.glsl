@@ -131,14 +131,40 @@ vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
     return unpack_normal(mix(first, second, phases.blend), material.flow_normal_strength);
 }
 
+// Where waves are asked, and how much there is of them.
+struct WaveAsked {
+    vec3 position;
+    vec3 position_dx;
+    vec3 position_dy;
+    vec3 normal;
+    float moves;     // 0: frozen
+    float strength;  // 0: none
+};
+
+WaveAsked waves_asked(SurfaceInput at, StandingWater water, float still)
+{
+    WaveAsked w;
+    w.position = at.position;
+    w.position_dx = at.position_dx;
+    w.position_dy = at.position_dy;
+    w.normal = at.normal;
+    w.moves = saturate((1.0 - still - kStill) / (1.0 - kStill) + water_accumulation(at).z);
+    const float up = saturate(at.normal.y);
+    const float slope = 1.0 - up * up;
+    // On flat ground only the wind moves the water, a little.
+    const float breeze = 0.05 + 0.03 * min(length(frame.weather.wind_m_s), 6.0);
+    // Ice has no waves: those of the map go on.
+    w.strength = max(slope, breeze * up) * max(water.anywhere, water.runs) * w.moves;
+    return w;
+}
+
 // Waves of water that runs down, and of wind on flat ground. The map is laid along the surface: from
 // above on flat ground, from the sides on walls, blended between.
-Wave flow_wave(SurfaceInput at, StandingWater water, float still)
+Wave flow_wave(WaveAsked at)
 {
     const vec3 n = at.normal;
-    const float moves = saturate((1.0 - still - kStill) / (1.0 - kStill) + water_accumulation(at).z);
     // Along the surface, the longer the steeper; the map is moved up, so that waves run down.
-    const vec3 v = (vec3(0.0, 1.0, 0.0) - n * n.y) * material.flow_speed * moves;
+    const vec3 v = (vec3(0.0, 1.0, 0.0) - n * n.y) * material.flow_speed * at.moves;
     const FlowPhases phases = flow_phases(frame.time_s, material.flow_interval_s);
     const vec3 sides = max(n * n * n * n - 0.01, vec3(0.0));
     const vec3 share = sides / (sides.x + sides.y + sides.z);
@@ -178,14 +204,31 @@ Wave flow_wave(SurfaceInput at, StandingWater water, float still)
             left.z = 0.0;
         }
     } while (left.x + left.y + left.z > 0.0);
-    const float slope = 1.0 - saturate(n.y) * saturate(n.y);
-    // On flat ground only the wind moves the water, a little.
-    const float breeze = 0.05 + 0.03 * min(length(frame.weather.wind_m_s), 6.0);
-    // Ice has no waves: those of the map go on.
-    const float strength = max(slope, breeze * saturate(n.y)) * max(water.anywhere, water.runs) * moves;
-    wave.lean = (wave.lean - n * dot(n, wave.lean)) * strength;
-    wave.up = mix(1.0, wave.up, strength);
+    wave.lean = (wave.lean - n * dot(n, wave.lean)) * at.strength;
+    wave.up = mix(1.0, wave.up, at.strength);
     return wave;
 }
+
+// Of water that rings and waves bend; still: its normal without them. fade: how far they are drawn.
+vec3 bent_normal(vec4 bent, vec3 still, float fade)
+{
+    return normalize(bent.xyz * fade + still * max(mix(1.0, bent.w, fade), 0.05));
+}
+
+#ifdef LOOKS_LATER
+// Half of the walls in rain have waves, and a CPU takes for all what one of a group asks. So of what is steep they are left to the
+// end, where a loop skips them for groups without any: they change its normal alone.
+bool waves_later() { return later() && is_steep() && SNOW == 0u && FROST == 0u && (BESIDES & BESIDES_WIDE_GROUND) == 0u; }
+struct WavesLater {
+    bool asked;  // by the point that was shaded last
+    WaveAsked waves;
+    float fade;
+    ivec2 pixel;
+    vec2 base;  // code of the normal below
+};
+WavesLater waves_left;
+#else
+bool waves_later() { return false; }
+#endif
 
 #endif

@@ -199,6 +199,10 @@ void shade(uint at_list)
     data.texel.emission = data.emission;
     place_film(data.texel, s);
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
+    if (waves_later()) {
+        waves_left.pixel = pixel;
+        waves_left.base = code.normals.xy;
+    }
     const bool ALWAYS = true;
     const bool WEATHER = SURFACE_WEATHER == WEATHER_WHOLE;
     const bool EMISSION = SURFACE_EMISSION != 0u;
@@ -209,6 +213,17 @@ void shade(uint at_list)
 #undef ROW
     if (SURFACE_WEATHER == WEATHER_WET) imageStore(out_wet, pixel, wet_code(kept_weather(data.texel), data.texel.material));
     if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares, kind_of_shares()));
+}
+
+// What is steep has no rings, and no roughness by them.
+void bend_by_waves()
+{
+    if (!waves_left.asked) return;
+    const Wave flow = flow_wave(waves_left.waves);
+    const vec4 bent = normalize(vec4(flow.lean, flow.up));
+    vec2 code = octahedral_encode(bent_normal(bent, waves_left.waves.normal, waves_left.fade));
+    if ((frame.flags & FRAME_RINGS) != 0u) code = rough_normal_code(code, 0.0);
+    imageStore(out_normals, waves_left.pixel, vec4(waves_left.base, code));
 }
 
 bool of_any(bool lane) { return subgroupBallot(lane).x != 0u; }
@@ -228,22 +243,31 @@ void main()
         sky_look.position = vec3(0.0);
         sky_look.normal = vec3(0.0, 1.0, 0.0);
         sky_look.pixel = ivec2(0);
-        // Both loops end for all lanes at once. Nothing but a loop's end skips code on a CPU: the outer turns are few.
+        // The loops end for all lanes at once. Nothing but a loop's end skips code on a CPU: the outer turns are few.
         bool more = true;
         do {
             look_to_sky();
             bool asked = false;
             do {
-                if (at_list < end) {
-                    shade(at_list);
-                    if (!sky_look.asked) {
-                        at_list += gl_WorkGroupSize.x;
-                        sky_look.known = false;
+                bool waves = false;
+                do {
+                    waves_left.asked = false;
+                    if (at_list < end) {
+                        shade(at_list);
+                        if (!sky_look.asked) {
+                            at_list += gl_WorkGroupSize.x;
+                            sky_look.known = false;
+                        }
                     }
-                }
-                asked = of_any(sky_look.asked);
-                more = of_any(at_list < end);
-            } while (more && !asked);
+                    asked = of_any(sky_look.asked);
+                    more = of_any(at_list < end);
+                    if (waves_later()) {
+                        waves_left.asked = waves_left.asked && !sky_look.asked;
+                        waves = of_any(waves_left.asked);
+                    }
+                } while (more && !asked && !waves);
+                if (waves_later()) bend_by_waves();
+            } while (waves_later() && more && !asked);
         } while (more);
         return;
     }
