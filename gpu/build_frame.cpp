@@ -349,7 +349,7 @@ void add_layers(FrameGraph& graph, const Frame& frame, FrameResources& r, const 
         if (variant.image_based_light) {
             add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, variant.parts, false, variant.mirrors_picture,
-                             variant.emission && r.lights->glows, r.around, window_of(frame, r)});
+                             r.scene->emissive() && r.lights->glows, r.around, window_of(frame, r), r.targets});
         }
     };
     add_transparent(graph, *r.targets, *r.transparent, *r.parts, *r.scene, *r.sky, constants,

@@ -265,11 +265,12 @@ struct Renderer::Impl {
         if (!any || s.transparent_layers == 0) return false;
         const int words = static_cast<int>(light_table.words());
         const FrameTargets& now = set.transparent.layer;
-        if (now.width != s.width || now.height != s.height || words > set.transparent_words) {
+        const bool bends = std::any_of(materials.begin(), materials.end(), [](const GpuMaterial& m) { return m.bends; });
+        if (now.width != s.width || now.height != s.height || words > set.transparent_words || (bends && !set.transparent.bends)) {
             set.transparent = {};
             set.transparent_arena = std::make_unique<MemoryArena>(device);
             set.transparent = make_transparent_targets(device, *set.transparent_arena, s.width,
-                                                       s.height, words);
+                                                       s.height, words, bends);
             set.transparent_words = words;
         }
         return true;

@@ -100,6 +100,7 @@ struct GpuMaterial {
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
     bool masked = false;
     bool blended = false;
+    bool bends = false;  ///< it is, and what is seen through it is bent or blurred
     bool glows = false;
     bool casts_shadows = true;
     bool decal_weather = false;        ///< as a decal it brings its own

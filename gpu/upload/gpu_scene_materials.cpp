@@ -277,6 +277,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source) && !source.decal.on;
+    materials_[index].bends = materials_[index].blended && ((c.transmission_factor > 0.0f && (c.thickness_factor > 0.0f || c.roughness_factor > 0.08f)) ||
+                                                            (materials_[index].water & WATER_BEADS) != 0);
     materials_[index].decal_weather = source.decal.weights.w > 0.0f;
     materials_[index].casts_shadows = source.casts_shadows;
     materials_[index].glows = source.emissive * source.emissive_strength != glm::vec3(0.0f);

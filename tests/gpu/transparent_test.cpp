@@ -198,6 +198,94 @@ TEST_F(TransparentTest, ARoundBodyBendsWhatIsBehind)
     EXPECT_NEAR(std::abs(at(0.6f) - at(0.0f)), 4, 1);
 }
 
+// A pane that glows at half its strength below one that blurs: no edge in view, so the blur changes nothing.
+TEST_F(TransparentTest, ARoughPaneShowsThePaneBehindIt)
+{
+    Material rough = plain_material(glm::vec3(1.0f), 0.5f);
+    rough.transmission = 1.0f;
+    rough.ior = 1.5f;
+    const glm::vec3 ground(0.2f, 0.4f, 0.1f), green(0, 2, 0);
+    const std::vector<Material> materials{glowing(ground), glowing(green, 0.5f), rough};
+    Frame frame = from_above();
+    expect_color(pixel(shot(scene_of({level(0, 0), level(1, 2)}, materials), frame), 24, 24), 0.96f * ground);
+    expect_color(pixel(shot(scene_of({level(0, 0), level(0.5f, 1), level(1, 2)}, materials), frame), 24, 24),
+                 0.96f * (0.5f * green + 0.5f * ground));
+    // One that lies before it is not seen twice.
+    expect_color(pixel(shot(scene_of({level(0, 0), level(1.5f, 1), level(1, 2)}, materials), frame), 24, 24),
+                 0.5f * green + 0.5f * 0.96f * ground);
+    // With one layer alone it is the solid picture.
+    frame.settings.transparent_layers = 1;
+    const glm::vec3 one = pixel(shot(scene_of({level(0, 0), level(0.5f, 1), level(1, 2)}, materials), frame), 24, 24);
+    EXPECT_LT(one.r, 0.96f * (ground.r + 0.05f));
+}
+
+// Bodies behind bodies tint by Beer's law, one after the other; the far sides of two-sided ones count with their near sides.
+TEST_F(TransparentTest, ABodyShowsTheBodyBehindIt)
+{
+    Material body = plain_material(glm::vec3(1.0f), 0.0f);
+    body.transmission = 1.0f;
+    body.double_sided = true;
+    body.thickness = 0.2f;
+    body.attenuation_distance_m = 0.2f;
+    body.attenuation_color = {1.0f, 0.5f, 0.8f};
+    Material other = body;
+    other.attenuation_color = {0.25f, 1.0f, 0.8f};
+    const auto through = [&](const std::vector<Primitive>& primitives) {
+        return pixel(shot(scene_of(primitives, {glowing({1, 1, 1}), body, other}), from_above()), 24, 24);
+    };
+    const float passes = 0.96f;
+    const glm::vec3 once = passes * body.attenuation_color;
+    expect_color(through({level(0, 0), level(1, 1)}), once);
+    expect_color(through({level(0, 0), level(0.5f, 2), level(1, 1)}), passes * once * other.attenuation_color);
+    const Primitive far_side = quad({-2.0f, 0.8f, -2}, {4, 0, 0}, {0, 0, 4}, 1);
+    expect_color(through({level(0, 0), far_side, level(1, 1)}), once);
+}
+
+// The step of ARoundBodyBendsWhatIsBehind, of a pane that lets light through.
+TEST_F(TransparentTest, ARoundBodyBendsThePaneBehindIt)
+{
+    Material plate = plain_material(glm::vec3(1.0f), 0.0f);
+    plate.transmission = 1.0f;
+    const auto at = [&](float thickness, float alpha) {
+        plate.thickness = thickness;
+        const Scene scene =
+            scene_of({level(0, 0), quad({0, 0.002f, 2}, {2, 0, 0}, {0, 0, -4}, 1),
+                      quad({-0.8f, 0.2f, 1}, {1.6f, 1.6f, 0}, {0, 0, -2}, 2)},
+                     {glowing({0, 0, 0}), glowing(glm::vec3(1.0f) / alpha, alpha), plate});
+        const RenderResult r = shot(scene, from_above());
+        int lit = 0;
+        for (int x = 0; x < kSize; ++x) lit += luminance(pixel(r, x, 24)) > 0.4f ? 1 : 0;
+        return lit;
+    };
+    EXPECT_NEAR(std::abs(at(0.6f, 0.5f) - at(0.0f, 0.5f)), 4, 1);
+    EXPECT_EQ(at(0.6f, 0.5f), at(0.6f, 1.0f));
+}
+
+// A wall that glows behind a level pane, which mirrors it as a dark floor of the same smoothness does.
+TEST_F(TransparentTest, ASmoothPaneMirrorsTheSolidPicture)
+{
+    Frame frame = from_above();
+    frame.camera = look({0, 1.0f, 3}, {0, 0.4f, 0});
+    frame.settings.image_based_light = true;
+    frame.settings.reflections = true;
+    const Material dark = plain_material(glm::vec3(0.0f), 0.05f);
+    Material pane = dark;
+    pane.alpha_mode = AlphaMode::Blend;
+    pane.base_color.a = 0.0f;
+    pane.premultiplied_alpha = true;
+    const Primitive wall = quad({-3, 0, -1}, {6, 0, 0}, {0, 3, 0}, 0);
+    const Primitive floor = quad({-3, 0.2f, 2}, {6, 0, 0}, {0, 0, -2.9f}, 1);
+    const Primitive ground = quad({-3, 0, 2}, {6, 0, 0}, {0, 0, -3}, 2);
+    const auto shown = [&](const Material& second, bool reflections) {
+        frame.settings.reflections = reflections;
+        return pixel(shot(scene_of({wall, ground, floor}, {glowing({4, 0.2f, 0.2f}), second, plain_material(glm::vec3(0.0f), 1.0f)}), frame), 24, 34);
+    };
+    const glm::vec3 solid = shown(dark, true);
+    EXPECT_GT(solid.r, 0.1f);
+    expect_color(shown(pane, true), solid, 0.02f);
+    EXPECT_LT(shown(pane, false).r, 0.2f * solid.r);
+}
+
 TEST_F(TransparentTest, CastersCanBeSwitchedOff)
 {
     Material pane = plain_material(glm::vec3(0.5f));

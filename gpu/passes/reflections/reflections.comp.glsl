@@ -21,6 +21,7 @@ layout(local_size_x = REFLECTIONS_TILE, local_size_y = REFLECTIONS_TILE) in;
 #include "gpu/frame/frame_words.glsl"
 #include "gpu/frame/picture_pixel.glsl"
 layout(binding = REFLECTIONS_DEPTH_ROWS) uniform samplerBuffer depth_rows;
+layout(binding = REFLECTIONS_OWN_DEPTH) uniform samplerBuffer own_depth_rows;
 layout(binding = REFLECTIONS_RADIANCE) uniform sampler2D radiance_map;
 layout(binding = REFLECTIONS_MIRROR_WEIGHT) uniform sampler2D mirror_weight;
 layout(binding = REFLECTIONS_MIRROR_SHAPE) uniform sampler2D mirror_shape;
@@ -260,7 +261,7 @@ void main()
     vec2 label = vec2(REFLECTS_NOTHING, 0.0);
     if (weight.r + weight.g + weight.b > 0.0) {
         const vec4 shape = texelFetch(mirror_shape, texel, 0);
-        const float depth = texelFetch(depth_rows, row_texel(texel, frame.size)).r;
+        const float depth = texelFetch(own_depth_rows, row_texel(texel, frame.size)).r;
         const vec2 pixel = vec2(texel) + 0.5;
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 view = pixel_view_direction(frame, pixel);

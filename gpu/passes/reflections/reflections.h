@@ -19,6 +19,7 @@ struct MirrorOutputs {
     bool glows = false;         ///< surfaces that glow are lights, too
     PictureAround* around = nullptr;  ///< of the picture that this is a window of; null: it ends where it ends
     shared::MirrorWindow window = {};
+    FrameTargets* solid = nullptr;  ///< of the picture that a layer of what lets light through mirrors; null: its own
 };
 
 // For a pass that labels pixels which mirror nothing, too: the lighting tells the others alone.
@@ -28,7 +29,7 @@ void clear_mirrors(FrameGraph& graph, FrameTargets& targets);
 
 // Adds what smooth surfaces mirror of the picture itself, else of the probes around, else of the sky.
 //
-//   reads    depth, radiance, mirror_weight, mirror_shape, mirror_list, sky_specular, probes
+//   reads    depth, radiance (of `solid` where that is told), mirror_weight, mirror_shape, mirror_list, sky_specular, probes
 //   edits    accumulated; light_parts of frames that ask
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,

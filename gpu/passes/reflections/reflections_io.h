@@ -22,7 +22,7 @@ struct MirrorWindow {
 SHARED_END
 
 #define REFLECTIONS_FRAME 0
-#define REFLECTIONS_DEPTH_ROWS 1  // of the G-buffer, as weather and emission
+#define REFLECTIONS_DEPTH_ROWS 1  // of the picture that is mirrored, as weather and emission
 #define REFLECTIONS_RADIANCE 2
 #define REFLECTIONS_MIRROR_WEIGHT 3
 #define REFLECTIONS_MIRROR_SHAPE 4
@@ -41,6 +41,7 @@ SHARED_END
 #define REFLECTIONS_AROUND_DEPTH 14  // of the small picture, row by row
 #define REFLECTIONS_AROUND_LIGHT 15
 #define REFLECTIONS_AROUND_GLOW 16
+#define REFLECTIONS_OWN_DEPTH 17  // of what mirrors it: the same, but for layers of what lets light through
 
 #define REFLECTIONS_SPEC_PROBES 0   // how many
 #define REFLECTIONS_SPEC_SPLIT 1    // 1: what is mirrored is written apart, too

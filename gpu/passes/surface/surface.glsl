@@ -109,7 +109,8 @@ void main()
                                data.texel.base_normal, data.opacity);
     if (HOLES != 0u) l = LetThrough(1.0, 1.0, vec3(0.0), 1.0);  // by chance: it is here, or it is not
     data.texel.base_color *= l.matt;
-    out_through = vec4(l.through * data.filtered, l.whole);
+    const bool far_side = !gl_FrontFacing && material.transmission_factor > 0.0 && material.thickness_factor > 0.0;
+    out_through = vec4(l.through * data.filtered, far_side ? -l.whole : l.whole);
     data.texel.body = l.body;
     data.texel.lamp_mask = vec3(1.0);  // the thickness stands there
 #endif

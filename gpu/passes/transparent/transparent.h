@@ -19,10 +19,16 @@ struct TransparentTargets {
     std::unique_ptr<GpuImage> through;      ///< of that layer: SurfaceLayer::through
     std::unique_ptr<GpuImage> solid;        ///< the picture of this sample behind all layers
     std::unique_ptr<GpuImage> front;        ///< light of the layers so far
-    std::unique_ptr<GpuImage> left;         ///< what they let through
+    std::unique_ptr<GpuImage> left;         ///< what they let through; alpha: metres of the nearest, 0: there is none
+    bool bends = false;                     ///< the scene has what bends or blurs (GpuMaterial::bends); else those below are
+                                            ///< null, the first of them of one texel
+    std::unique_ptr<GpuImage> bent;         ///< the first such layer of a pixel, bent_layer.glsl
+    std::unique_ptr<GpuImage> tint;         ///< what it lets through of what is behind it; alpha: a drop stands there
+    std::unique_ptr<GpuImage> behind;       ///< light of the layers behind it; alpha: metres of the nearest, 0: none
+    std::unique_ptr<GpuImage> behind_left;  ///< what those let through
 };
 TransparentTargets make_transparent_targets(const Device& device, MemoryArena& arena, int width,
-                                            int height, int light_words);
+                                            int height, int light_words, bool bends);
 
 /// Layers that a view of the scene may need; 0: nothing in view lets light through.
 int transparent_layers(const GpuScene& scene, const glm::mat4& world_to_clip);

@@ -13,6 +13,8 @@ layout(binding = TRANSPARENT_DONE_FRONT) uniform sampler2D front;
 layout(binding = TRANSPARENT_DONE_LEFT) uniform sampler2D left;
 layout(binding = TRANSPARENT_DONE_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(constant_id = TRANSPARENT_DONE_SPEC_SPLIT) const uint SPLIT = 0u;
+layout(constant_id = TRANSPARENT_DONE_SPEC_BEHIND) const uint BEHIND = 0u;
+layout(binding = TRANSPARENT_DONE_CHANGE) uniform sampler2D change;
 layout(binding = TRANSPARENT_DONE_SOLID_PARTS, rgba32f) uniform readonly image2DArray solid_parts;
 layout(binding = TRANSPARENT_DONE_FRONT_PARTS, rgba32f) uniform readonly image2DArray front_parts;
 layout(binding = TRANSPARENT_DONE_PARTS, rgba32f) uniform image2DArray light_parts;
@@ -25,6 +27,7 @@ void main()
     const vec4 layers = texelFetch(front, texel, 0);
     vec4 result = vec4(layers.rgb + texelFetch(left, texel, 0).rgb * solid.rgb,
                        max(solid.a, layers.a));
+    if (BEHIND != 0u) result.rgb += texelFetch(change, texel, 0).rgb;
     if (SPLIT != 0u) {
         // Behind a layer all of it is what comes through.
         const bool covered = layers.a > 0.0;
