@@ -208,6 +208,24 @@ TEST(GroundRelief, GoesOnToAHandsBreadth)
     EXPECT_GT(bend.deviation, 0.015);
 }
 
+// Hollows that are four times narrower have no finer parts that are four times steeper too: over a finger's breadth of theirs shores are
+// smoother than a copy made smaller would be, and each hollow is where it was.
+TEST(GroundRelief, NarrowHollowsHaveNoRaggedShores)
+{
+    const auto bend = [](float narrower) {
+        return spread_of(40000, [narrower](vec2 at) {
+            const vec2 beside(0.06f, 0.0f), here = at * 0.02f;
+            return ground_relief_of(here + beside, narrower) + ground_relief_of(here - beside, narrower) - 2.0f * ground_relief_of(here, narrower);
+        });
+    };
+    EXPECT_LT(bend(4.0f).deviation, 0.25 * bend(1.0f).deviation);
+    EXPECT_EQ(bend(0.5f).deviation, bend(1.0f).deviation) << "wider ones are copies";
+    const Spread apart = spread_of(40000, [](vec2 at) { return ground_relief_of(at, 4.0f) - ground_relief(at); });
+    const Spread all = spread_of(40000, [](vec2 at) { return ground_relief_of(at, 4.0f); });
+    EXPECT_LT(apart.deviation, 0.5 * all.deviation);
+    EXPECT_NEAR(all.deviation, 0.14, 0.02);
+}
+
 // A pond of wide ground ends in a marsh: never wider than the water, the deeper the more of it, whole in the end.
 TEST(MarshCover, RisesWithTheDepthWithinThePond)
 {
