@@ -62,9 +62,9 @@ SHARED_FN vec3 meadow_tone(vec3 base, float strength)
 {
     const float grey = dot(base, vec3(0.30f, 0.59f, 0.11f));
     const float green = base.y / max(max(base.x, base.z), 1.0e-4f);
-    const float shade = 0.5f * smooth_edge(0.12f, 0.45f, grey) * smooth_edge(1.0f, 1.2f, green);
+    const float shade = saturate(strength) * smooth_edge(1.0f, 1.2f, green) * 2.5f * max(grey - 0.12f, 0.0f);
     const vec3 straw = grey * vec3(1.10f, 1.0f, 0.73f);
-    return mix(base, straw, 0.5f * saturate(strength) * smooth_edge(1.3f, 1.6f, green)) * (1.0f - saturate(strength) * shade);
+    return mix(base, straw, 0.5f * saturate(strength) * smooth_edge(1.3f, 1.6f, green)) / (1.0f + shade);
 }
 
 // What the mesh of wide ground does not have of its relief, m: its triangles are metres wide, and no meadow is so even. 0
