@@ -37,6 +37,7 @@ constexpr float kOutermostRing = 1150.0f, kLeastOutermost = 300.0f, kHorizon_m =
 constexpr float kFarRing = 2.5f;   // likewise of rings beyond the fine ones
 constexpr float kClose = 0.025f;   // of the scene's size: ground so close below it is left out where it is hidden
 const vec3 kColor(0.150f, 0.150f, 0.149f);
+const vec3 kPaving(0.168f, 0.160f, 0.147f);
 // Asphalt as far as a yard goes, or a few widths of what stands there; then grass: asphalt out to the horizon is a grey sea. Its rim runs in and out.
 constexpr float kYard_m = 24.0f, kYardWidths = 6.0f, kRimBend = 0.16f;
 constexpr float kMostYard = 250.0f;  // times the scene's size: of a smaller thing all that is in sight is asphalt
@@ -220,8 +221,18 @@ void level(Image& image)
         image.pixels[k] *= static_cast<float>(mean[k % channels]) / std::max(wide[k], 1e-4f);
 }
 
-// Asphalt of some years, bleached: grey enough to show what stands on it and its shadow. Returns the
-// edge of its square.
+// Lays a generated material and returns the edge of its square.
+float lay(scene::Scene& scene, scene::Material& material, const texproc::MaterialMaps& maps)
+{
+    material.base_color_texture.texture = add_texture(scene, "colour of the ground", maps.albedo);
+    material.normal_texture.texture = add_texture(scene, "relief of the ground", maps.normal);
+    material.metallic_roughness_texture.texture =
+        add_texture(scene, "gloss of the ground", packed(maps));
+    material.occlusion_texture.texture = material.metallic_roughness_texture.texture;
+    return maps.tile_m;
+}
+
+// Asphalt of some years, bleached: grey enough to show what stands on it and its shadow.
 float lay_asphalt(scene::Scene& scene, scene::Material& material)
 {
     texproc::MaterialRecipe recipe;
@@ -234,12 +245,20 @@ float lay_asphalt(scene::Scene& scene, scene::Material& material)
     texproc::MaterialMaps maps = texproc::generate_material(recipe);
     level(maps.albedo);
     level(maps.roughness);
-    material.base_color_texture.texture = add_texture(scene, "colour of the ground", maps.albedo);
-    material.normal_texture.texture = add_texture(scene, "relief of the ground", maps.normal);
-    material.metallic_roughness_texture.texture =
-        add_texture(scene, "gloss of the ground", packed(maps));
-    material.occlusion_texture.texture = material.metallic_roughness_texture.texture;
-    return maps.tile_m;
+    return lay(scene, material, maps);
+}
+
+// Slabs of stone, as grey: their courses say how large what stands on them is, and their joints how wet they are.
+float lay_paving(scene::Scene& scene, scene::Material& material)
+{
+    texproc::MaterialRecipe recipe;
+    recipe.kind = texproc::MaterialKind::Paving;
+    recipe.size = kTexels;
+    recipe.seed = 5;
+    recipe.values = {{"tile_m", 2.4f}, {"stone_width_m", 0.40f}, {"stone_length_m", 0.52f}, {"joint_m", 0.009f}, {"irregularity", 0.3f},
+                     {"moss", 0.25f}};
+    recipe.color = kPaving;
+    return lay(scene, material, texproc::generate_material(recipe));
 }
 
 // Where on the square of asphalt a point lies: shifted by up to two squares from place to place, so that no
@@ -349,11 +368,10 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
     material.weather.hollow_tiling = std::clamp(1.6f / around, 1.0f, 5.0f);
     material.weather.flow_tiling = 2.0f * material.weather.hollow_tiling;
     material.weather.flow_normal_strength = 1.0f / material.weather.hollow_tiling;
-    const float tile_m = lay_asphalt(scene, material);
-
     scene::Primitive disc;
     const float yard = std::max(kYard_m / around, kYardWidths);
     const bool has_rim = yard < kMostYard;
+    const float tile_m = has_rim ? lay_paving(scene, material) : lay_asphalt(scene, material);
     const auto grass = static_cast<std::uint32_t>(scene.materials.size());
     if (has_rim) scene.materials.push_back(meadow(material));
     disc.material = static_cast<std::uint32_t>(scene.materials.size());
@@ -363,7 +381,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
         disc.normals.emplace_back(0.0f, 1.0f, 0.0f);
         disc.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
         // v runs towards +z below: the bitangent of +x and +y up is -z.
-        disc.uv0.push_back(place_on_square(offset, tile_m));
+        disc.uv0.push_back(has_rim ? offset / tile_m : place_on_square(offset, tile_m));
         disc.colors.emplace_back(vec3(tone), 1.0f);
     };
     add(vec2(0.0f), stains(vec2(0.0f), around));

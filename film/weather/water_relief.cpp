@@ -175,7 +175,7 @@ WaterReliefs water_reliefs(const scene::Patches& patches, const scene::Triangles
                 const glm::vec3 at = triangles.point(s.triangle, s.at);
                 height = m.weather.default_height +
                          shared::kGroundRelief *
-                             shared::ground_relief(glm::vec2(at.x, at.z) * m.weather.hollow_tiling);
+                             shared::ground_relief_of(glm::vec2(at.x, at.z) * m.weather.hollow_tiling, m.weather.hollow_tiling);
             }
             points[patches.material[i]].push_back({height, patches.area_m2[i]});
         }

@@ -19,24 +19,27 @@ SHARED_CONST int kGroundPeriod = 1024;
 
 // 0 the bottom of a hollow .. 1 the top of a bump. xz: world, metres. The lattices of its octaves are turned against each
 // other and bent: of one lattice puddles were boxes with teeth along the axes of the world. The finest is a hand's breadth: without it
-// shores are drawn as if with a pen.
-SHARED_FN float ground_relief(vec2 xz)
+// shores are drawn as if with a pen. narrower: so many times a material has its hollows narrower than a step (xz is longer by it), which holds
+// for what is wider than a hand alone: finer parts would be steeper too, and shores in rags.
+SHARED_FN float ground_relief_of(vec2 xz, float narrower)
 {
+    const float gentler = 1.0f / max(narrower, 1.0f);
     const vec2 turned = vec2(0.83f * xz.x - 0.56f * xz.y, 0.56f * xz.x + 0.83f * xz.y);
     const vec2 other = vec2(0.36f * xz.x + 0.93f * xz.y, 0.36f * xz.y - 0.93f * xz.x);
     const float finest = endless_noise(other * 9.3f + 5.3f, 151u) - 0.5f;
-    const float fine = endless_noise(turned * 2.9f + vec2(3.1f, 3.1f + 0.5f * finest), 139u) - 0.5f;
-    const float near = endless_noise(other * 0.97f + vec2(7.3f + 0.4f * fine, 7.3f), 137u) - 0.5f;
+    const float fine = endless_noise(turned * 2.9f + vec2(3.1f, 3.1f + 0.5f * gentler * finest), 139u) - 0.5f;
+    const float near = endless_noise(other * 0.97f + vec2(7.3f + 0.4f * gentler * fine, 7.3f), 137u) - 0.5f;
     const float wide = endless_noise(turned * 0.37f + vec2(0.5f * near, 0.0f), 131u) - 0.5f;
     const float broad = endless_noise(xz * 0.29f + vec2(0.0f, 0.6f * near), 149u) - 0.5f;
-    return clamp(0.498f + 0.40f * broad + 0.40f * wide + 0.30f * near + 0.13f * fine + 0.08f * finest, 0.0f, 1.0f);
+    return clamp(0.498f + 0.40f * broad + 0.40f * wide + 0.30f * near + gentler * (0.13f * fine + gentler * 0.08f * finest), 0.0f, 1.0f);
 }
+SHARED_FN float ground_relief(vec2 xz) { return ground_relief_of(xz, 1.0f); }
 
 // Its mean over a pixel of a width, as far as one place can tell: the rest of its deviation, 0.15 in all, is what
 // ground_relief_blurred says. Half of the variance is lost at 3 m.
-SHARED_FN float ground_relief_seen(vec2 xz, float width_m)
+SHARED_FN float ground_relief_seen(vec2 xz, float width_m, float narrower)
 {
-    return 0.498f + (ground_relief(xz) - 0.498f) * sqrt(1.0f - variance_lost(width_m, 3.0f));
+    return 0.498f + (ground_relief_of(xz, narrower) - 0.498f) * sqrt(1.0f - variance_lost(width_m, 3.0f));
 }
 SHARED_FN float ground_relief_blurred(float width_m)
 {

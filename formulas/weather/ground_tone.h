@@ -8,6 +8,7 @@
 
 #include "base/interop.h"
 #include "formulas/noise/noise.h"
+#include "formulas/weather/surface_weather.h"
 
 SHARED_BEGIN
 
@@ -52,6 +53,18 @@ SHARED_FN vec3 ground_tone(vec2 xz, float width_m, float strength)
 {
     const GroundGrowth growth = ground_growth(xz, width_m);
     return max(splat3(1.0f) - (strength * growth.moist) * vec3(0.46f, 0.37f, 0.34f) + (strength * growth.other) * vec3(0.28f, 0.05f, 0.12f), splat3(0.25f));
+}
+
+// Grass as it stands on wide ground. Textures and colours made for it are often greener and brighter than any meadow, which is blades beside
+// stalks, thatch and soil, each in the shade of others: swards reflect about a tenth of the visible light. Blades whose green is at most
+// 1.3 times their red keep their tone, and what is not green at all is left alone, as stone is. Strengths are ours, by eye on the shared town in rain. strength: of all variation of ground, 0 none.
+SHARED_FN vec3 meadow_tone(vec3 base, float strength)
+{
+    const float grey = dot(base, vec3(0.30f, 0.59f, 0.11f));
+    const float green = base.y / max(max(base.x, base.z), 1.0e-4f);
+    const float shade = saturate(strength) * smooth_edge(1.0f, 1.2f, green) * 2.5f * max(grey - 0.12f, 0.0f);
+    const vec3 straw = grey * vec3(1.10f, 1.0f, 0.73f);
+    return mix(base, straw, 0.5f * saturate(strength) * smooth_edge(1.3f, 1.6f, green)) / (1.0f + shade);
 }
 
 // What the mesh of wide ground does not have of its relief, m: its triangles are metres wide, and no meadow is so even. 0

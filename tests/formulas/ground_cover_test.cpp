@@ -78,7 +78,7 @@ TEST(WaterCover, OfAWidePixelIsThatOfItsPlaces)
                                                                0.5f, kGroundRelief * blurred).anywhere);
             };
             places += water(ground_relief(at), 0.0f);
-            parts += water(ground_relief_seen(at, 2.2f), ground_relief_blurred(2.2f));
+            parts += water(ground_relief_seen(at, 2.2f, 1.0f), ground_relief_blurred(2.2f));
         }
         const auto wide = [&](float blurred) {
             return static_cast<double>(water_cover_of_mean(vec2(0.0f, flood), 0.25f + kGroundRelief * 0.498f, 1.0f, 1.0f, 0.5f,
@@ -91,7 +91,7 @@ TEST(WaterCover, OfAWidePixelIsThatOfItsPlaces)
         worst_by_mean = std::max(worst_by_mean, std::abs(wide(0.0f) - places));
     }
     EXPECT_LT(worst, 0.3 * worst_by_mean);
-    EXPECT_EQ(ground_relief_seen(vec2(3.0f, 7.0f), 0.0f), 0.498f + (ground_relief(vec2(3.0f, 7.0f)) - 0.498f));
+    EXPECT_EQ(ground_relief_seen(vec2(3.0f, 7.0f), 0.0f, 1.0f), 0.498f + (ground_relief(vec2(3.0f, 7.0f)) - 0.498f));
     EXPECT_EQ(ground_relief_blurred(0.0f), 0.0f);
 }
 

@@ -208,6 +208,46 @@ TEST(GroundRelief, GoesOnToAHandsBreadth)
     EXPECT_GT(bend.deviation, 0.015);
 }
 
+// Hollows that are four times narrower have no finer parts that are four times steeper too: over a finger's breadth of theirs shores are
+// smoother than a copy made smaller would be, and each hollow is where it was.
+TEST(GroundRelief, NarrowHollowsHaveNoRaggedShores)
+{
+    const auto bend = [](float narrower) {
+        return spread_of(40000, [narrower](vec2 at) {
+            const vec2 beside(0.06f, 0.0f), here = at * 0.02f;
+            return ground_relief_of(here + beside, narrower) + ground_relief_of(here - beside, narrower) - 2.0f * ground_relief_of(here, narrower);
+        });
+    };
+    EXPECT_LT(bend(4.0f).deviation, 0.25 * bend(1.0f).deviation);
+    EXPECT_EQ(bend(0.5f).deviation, bend(1.0f).deviation) << "wider ones are copies";
+    const Spread apart = spread_of(40000, [](vec2 at) { return ground_relief_of(at, 4.0f) - ground_relief(at); });
+    const Spread all = spread_of(40000, [](vec2 at) { return ground_relief_of(at, 4.0f); });
+    EXPECT_LT(apart.deviation, 0.5 * all.deviation);
+    EXPECT_NEAR(all.deviation, 0.14, 0.02);
+}
+
+// A green that no meadow has becomes one that some have; what is no such green, and all where the ground does not vary, stays as it is.
+TEST(MeadowTone, ANeonGreenIsDulledAndStoneIsNot)
+{
+    const vec3 neon(0.25f, 0.43f, 0.058f);
+    const vec3 dull = meadow_tone(neon, 1.0f);
+    EXPECT_LT(dull.y, 0.7f * neon.y);
+    EXPECT_LT(dull.y / dull.x, 0.85f * neon.y / neon.x);
+    EXPECT_GT(dull.y, 1.15f * dull.x) << "still green";
+    for (const vec3& kept : {vec3(0.095f, 0.118f, 0.047f), vec3(0.3f), vec3(0.25f, 0.2f, 0.15f), vec3(0.0f), vec3(0.3f, 0.35f, 0.4f)}) {
+        EXPECT_EQ(meadow_tone(kept, 1.0f), kept);
+        EXPECT_EQ(meadow_tone(neon, 0.0f), neon);
+    }
+    // No step, no more light than before, and brighter stays brighter.
+    vec3 before(0.0f);
+    for (float bright = 0.02f; bright < 2.0f; bright += 0.02f) {
+        const vec3 now = meadow_tone(bright * neon, 1.0f);
+        EXPECT_LE(dot(now, vec3(0.30f, 0.59f, 0.11f)), 1.001f * dot(bright * neon, vec3(0.30f, 0.59f, 0.11f)));
+        EXPECT_GT(now.y, before.y);
+        before = now;
+    }
+}
+
 // A pond of wide ground ends in a marsh: never wider than the water, the deeper the more of it, whole in the end.
 TEST(MarshCover, RisesWithTheDepthWithinThePond)
 {

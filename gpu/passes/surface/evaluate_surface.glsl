@@ -116,7 +116,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
         const float width_m = sqrt(max(dot(dx, dx), dot(dy, dy)));
         // What grows on land of a control map is told by that.
         const float farmed = LAYERED ? 0.0 : farmed_share(at.position.xz, at.normal.y, base);
-        base *= ground_tone(at.position.xz, width_m, frame.look.ground_variation);
+        base = meadow_tone(base, frame.look.ground_variation) * ground_tone(at.position.xz, width_m, frame.look.ground_variation);
         if (farmed > 0.0) {
             const Field field = field_at(at.position.xz, width_m, frame.look.ground_variation * farmed);
             base *= field.tone;

@@ -50,7 +50,7 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
         const vec2 dx = at.position_dx.xz;
         const vec2 dy = at.position_dy.xz;
         const float width_m = material.hollow_tiling * sqrt(max(dot(dx, dx), dot(dy, dy)));
-        height += kGroundRelief * ground_relief_seen(at.position.xz * material.hollow_tiling, width_m);
+        height += kGroundRelief * ground_relief_seen(at.position.xz * material.hollow_tiling, width_m, material.hollow_tiling);
         blurred = kGroundRelief * ground_relief_blurred(width_m);
     }
     float puddle_mask = at.weather.g;
