@@ -19,7 +19,7 @@ vec3 direction(float up, float turn)
 
 Layers none()
 {
-    return Layers{0.0f, 0.3f, vec3(0.0f), 0.5f, 0.0f, vec3(1, 0, 0), 0.0f, vec3(0.0f), vec3(0, 0, 1)};
+    return Layers{0.0f, 0.3f, vec3(0.0f), 0.5f, 0.0f, vec3(1, 0, 0), 0.0f, vec3(0.0f), vec3(0, 0, 1), 0.0f};
 }
 
 const vec3 kUp(0, 0, 1);

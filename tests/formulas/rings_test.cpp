@@ -100,7 +100,9 @@ TEST(Rings, AreSteeperTheHarderItRains)
         while (level.size() > 1) level = above(level);
         const auto all = static_cast<double>(rings_unseen(level[0].square, level[0].lean, 1.0f));
         EXPECT_GE(all, before) << rain;
-        if (rain == 0.0f) EXPECT_LT(all, 5e-5) << "a calm pool is a mirror, but for the last of eight bits";
+        if (rain == 0.0f) {
+            EXPECT_LT(all, 5e-5) << "a calm pool is a mirror, but for the last of eight bits";
+        }
         before = all;
     }
     RecordProperty("all_lost", std::to_string(before));

@@ -124,7 +124,9 @@ TEST(SnowBodyShare, MeltSoaksTheGroundBesideIt)
         EXPECT_EQ(snow_body_at(0.02f, 0.0f, at, 0.0f).wets, 0.0f);
         const SnowBody body = snow_body_at(0.02f, 0.0f, at, 1.0f);
         beside += body.share == 0.0f && body.wets > 0.3f ? 1 : 0;
-        if (body.share > 0.1f) EXPECT_GT(body.wets, 0.9f);
+        if (body.share > 0.1f) {
+            EXPECT_GT(body.wets, 0.9f);
+        }
     }
     EXPECT_GT(beside, 100);
 }
