@@ -119,6 +119,70 @@ TEST(MisnamedColumns, ACountOfAGaugeIsNoAmountOfAnHour)
         << "steady drizzle";
 }
 
+// A short file with three spells of rain: what stands still above 0 for half a day is a count.
+TEST(MisnamedColumns, ACountOfAFewSpellsIsNoAmountOfAnHour)
+{
+    const auto spells = [](int h) { return 0.3 * (h / 24 + (h % 24 > 5 ? 1 : 0)); };
+    const auto counted = [&](int h, int c) { return c == 1 ? number(spells(h)) : usual(h, c); };
+    EXPECT_THAT(refusal(table("air_temp_c,precip_mm", 72, counted)), HasSubstr("never falls"));
+    const auto amounts = [&](int h, int c) {
+        return c == 1 ? number(h > 0 ? spells(h) - spells(h - 1) : 0.0) : usual(h, c);
+    };
+    EXPECT_EQ(refusal(table("air_temp_c,precip_mm", 72, amounts)), "");
+    // Rain that begins and grows to the end of a file.
+    const auto begins = [](int h, int c) {
+        return c == 1 ? number(h < 60 ? 0.0 : 0.1 * ((h - 60) / 2 + 1)) : usual(h, c);
+    };
+    EXPECT_EQ(refusal(table("air_temp_c,precip_mm", 72, begins)), "");
+}
+
+// 34 to 48 F that no name says: at their humidity no such air is on earth.
+TEST(MisnamedColumns, AirDamperThanAnyIsInAnotherScale)
+{
+    const auto fahrenheit = [](int h, int c) {
+        return number(c == 0 ? 34.0 + 14.0 * (h % 24) / 23.0 : 90.0 - h % 24);
+    };
+    EXPECT_THAT(refusal(table("temp,rh", 48, fahrenheit)),
+                testing::AllOf(HasSubstr("damper than any on earth"), HasSubstr("air_temp_f")));
+    const auto r = read_weather(table("temp_f,rh", 48, fahrenheit));
+    EXPECT_NEAR(r.table[Field::AirTemp][0], 274.2611, 1e-3);
+    // A desert's noon and a night of the Gulf are air.
+    const auto hot = [](int h, int c) {
+        return number(c == 0 ? 30.0 + 18.0 * (h % 24) / 23.0 : 95.0 - 3.2 * (h % 24));
+    };
+    EXPECT_EQ(refusal(table("air_temp_c,rel_humidity_pct", 48, hot)), "");
+}
+
+TEST(MisnamedColumns, ALoneZeroFarFromItsNeighboursIsMissing)
+{
+    const auto summer = [](int h, int c) {
+        return number(c == 0 ? (h % 9 == 4 ? 0.0 : 18.0 + 0.3 * (h % 24)) : 60.0);
+    };
+    const auto r = read_weather(table("air_temp_c,rel_humidity_pct", 48, summer));
+    EXPECT_THAT(to_text(r.report), HasSubstr("5 values of exactly 0"));
+    for (const double air_k : r.table[Field::AirTemp]) EXPECT_GT(air_k, 290.0);
+    // A winter's day through 0.
+    const auto winter = [](int h, int c) {
+        return number(c == 0 ? -7.0 + 7.0 * (h % 12) / 6.0 : 60.0);
+    };
+    EXPECT_THAT(to_text(read_weather(table("air_temp_c,rel_humidity_pct", 48, winter)).report),
+                testing::Not(HasSubstr("exactly 0")));
+}
+
+TEST(MisnamedColumns, ATableWithoutRowsSaysSo)
+{
+    const std::string said = refusal("time,air_temp_c,rel_humidity_pct\n");
+    EXPECT_THAT(said, testing::AllOf(HasSubstr("no row"), testing::Not(HasSubstr("lines listed"))));
+}
+
+// Names of ERA5 and Meteostat in a table of one's own.
+TEST(MisnamedColumns, ShortNamesOfServicesAreNotLeftOutInSilence)
+{
+    for (const std::string name : {"tp", "ssrd", "u10", "d2m", "wspd", "rhum"})
+        EXPECT_THAT(refusal(table("air_temp_c," + name, 24, usual)),
+                    HasSubstr("not understood: " + name));
+}
+
 // Stations' displays count the rain of a day, by a clock of their own.
 TEST(MisnamedColumns, ACountOfEachDayIsNoAmountOfAnHour)
 {

@@ -307,6 +307,9 @@ ForcingTable RowCollector::finish()
     const std::size_t good = times_.size();
     report_.rows = good;
     if (good == 0 || (report_.bad_rows > 2 && report_.bad_rows * 10 > good + report_.bad_rows)) {
+        if (report_.bad_rows == 0)
+            throw Error("weather: " + report_.format + ": no row follows what names the columns",
+                        "Give a file that has rows of weather.");
         std::string list;
         for (const std::string& p : problems_) list.append("\n  ").append(p);
         if (report_.bad_rows > problems_.size()) {
@@ -339,6 +342,8 @@ ForcingTable RowCollector::finish()
     }
     refuse_misnamed();
     refuse_warm_dew();
+    refuse_impossible_damp();
+    drop_lone_zeros();
     note_odd();
     drop_empty_columns();
 

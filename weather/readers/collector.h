@@ -99,6 +99,8 @@ private:
     void note_odd();
     void refuse_misnamed() const;
     void refuse_warm_dew() const;
+    void refuse_impossible_damp() const;
+    void drop_lone_zeros();
     void drop_empty_columns();
     void spread_amounts(ForcingTable& table);
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/humidity.h"
 #include "weather/readers/collector.h"
 #include "weather/readers/number_text.h"
 #include "weather/readers/text.h"
@@ -28,7 +29,8 @@ bool speaks_of_weather(std::string_view name)
     std::string token, letters;
     const auto speaks = [](const std::string& t) {
         for (const char* word :
-             {"sw", "lw",   "swd", "lwd", "swin", "lwin", "swdown", "lwdown", "rg",   "rh",
+             {"sw", "lw",   "swd", "lwd", "swin", "lwin", "swdown", "lwdown", "rg",   "rh", "tp", "u10", "v10",
+              "d2m", "ssrd", "strd", "tcc", "wspd", "dwpt", "rhum", "pres",
               "ta", "tair", "t2m", "ghi", "dni",  "dhi",  "par",    "hpa",    "mbar", "degc"})
             if (t == word) return true;
         return false;
@@ -159,6 +161,27 @@ void RowCollector::refuse_warm_dew() const
                 "where the format is a free table.");
 }
 
+// No air on earth was ever as damp as a dew point of 36 C (35 C: Dhahran 2003): such temperatures are in another
+// scale, or the humidity is another column.
+void RowCollector::refuse_impossible_damp() const
+{
+    constexpr std::size_t kFew = 10;
+    constexpr double kDampest_pa = 5950.0;  // vapour at 36 C
+    const auto& air = values_[static_cast<std::size_t>(Field::AirTemp)];
+    const auto& damp = values_[static_cast<std::size_t>(Field::RelHumidity)];
+    std::size_t known = 0, beyond = 0;
+    for (std::size_t i = 0; i < std::min(air.size(), damp.size()); ++i) {
+        if (std::isnan(air[i]) || std::isnan(damp[i])) continue;
+        ++known;
+        beyond += air[i] > 309.0 && vapour_pressure_pa(air[i], damp[i]) > kDampest_pa;
+    }
+    if (beyond < kFew || beyond * 20 <= known) return;
+    throw Error("weather: " + report_.format + ": in " + std::to_string(beyond) + " of " +
+                    std::to_string(known) +
+                    " rows the air would be damper than any on earth (a dew point above 36 C)",
+                "Say the unit of the temperature in its name (air_temp_f), or correct that of the humidity.");
+}
+
 // A column of nothing but zeros was not measured: a year without rain, days without sun or wind.
 namespace {
 
@@ -172,7 +195,37 @@ bool is_zero_degrees(double temp_k)
     return std::abs(temp_k - kZeroCelsiusK) < 1e-6 || std::abs(temp_k - 255.3722222) < 1e-4;
 }
 
+constexpr double kFarFromZero_k = 8.0, kNeighboursApart_k = 8.0;
+constexpr std::int64_t kNeighbours_us = 3 * 3600LL * 1000000;
+
 }  // namespace
+
+// Exactly 0 for a row between two on the same side that are 8 K and more from it, and nearer to each other (all
+// three chosen): a sensor that said nothing. Air does not fall and rise again by that in a row.
+void RowCollector::drop_lone_zeros()
+{
+    for (const Field field : {Field::AirTemp, Field::DewPoint}) {
+        auto& v = values_[static_cast<std::size_t>(field)];
+        std::size_t lone = 0, first = 0;
+        for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+            if (!is_zero_degrees(v[i]) || times_[i + 1] - times_[i - 1] > 2 * kNeighbours_us) continue;
+            const double before = v[i - 1] - v[i], after = v[i + 1] - v[i];
+            const bool far = (before >= kFarFromZero_k && after >= kFarFromZero_k) ||
+                             (before <= -kFarFromZero_k && after <= -kFarFromZero_k);
+            if (!far || std::abs(before - after) > kNeighboursApart_k) continue;
+            if (lone++ == 0) first = i;
+            v[i] = kMissing;
+        }
+        if (lone == 0) continue;
+        FieldReport& f = report_.fields[report_index(field)];
+        f.present -= lone;
+        f.out_of_range += lone;
+        note(ReadNote::Kind::OutOfRange, 0, field_info(field).name,
+             std::to_string(lone) + (lone == 1 ? " value" : " values") +
+                 " of exactly 0 (the first at " + iso_from_us(times_[first]) +
+                 ") between values 8 K and more away: a sensor that said nothing, taken as missing");
+    }
+}
 
 void RowCollector::drop_empty_columns()
 {

@@ -24,20 +24,27 @@ public:
             ++rises_;
             rise_hours_ |= 1u << hour;
         }
+        still_ += seen_ > 0 && value > 0.0 && value == last_;
         last_ = value;
         day_ = day;
         ++seen_;
     }
-    bool counts_up() const { return seen_ >= 24 && rises_ >= 10 && falls_ == 0; }
+    bool counts_up() const { return counts() && falls_ == 0; }
     bool counts_up_by_day() const
     {
         const bool one_hour = std::popcount(fall_hours_) == 1 && falls_ >= 2;
-        return seen_ >= 24 && rises_ >= 10 && std::popcount(rise_hours_) >= 4 && falls_ > 0 &&
-               (at_midnight_ || one_hour);
+        const bool many = std::popcount(rise_hours_) >= (rises_ >= 10 ? 4 : 3);
+        return counts() && many && falls_ > 0 && (at_midnight_ || one_hour);
     }
 
 private:
-    std::size_t seen_ = 0, falls_ = 0, rises_ = 0;
+    // Amounts of hours do not stand at one value for half a day, but a count does while it is dry.
+    bool counts() const
+    {
+        return seen_ >= 24 && (rises_ >= 10 || (rises_ >= 3 && still_ >= 12));
+    }
+
+    std::size_t seen_ = 0, falls_ = 0, rises_ = 0, still_ = 0;
     std::uint32_t fall_hours_ = 0, rise_hours_ = 0;  // of the day, a bit each
     std::int64_t day_ = 0;
     bool at_midnight_ = true;

@@ -198,7 +198,7 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
                 m.scale = 1.0 / 3.6;
             else if (is({"mph", "mpmph"}))
                 m.scale = 0.44704;
-            else if (is({"kn", "kt", "knots"}))
+            else if (is({"kn", "kt", "kts", "knots"}))
                 m.scale = 1852.0 / 3600.0;
             else
                 return false;
