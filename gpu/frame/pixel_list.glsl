@@ -1,4 +1,4 @@
-// The pixel that an invocation of an 8 x 8 group shades: of the picture, or of a list. Before the include:
+// The pixel that an invocation of a group of 64 shades: of the picture, or of a list. Before the include:
 //   PIXEL_LIST_BINDING   binding of the list
 #ifndef PETRICHOR_PIXEL_LIST_GLSL
 #define PETRICHOR_PIXEL_LIST_GLSL

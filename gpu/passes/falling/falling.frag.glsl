@@ -3,15 +3,14 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/weather/falling.h"
-#include "gpu/frame/gbuffer.glsl"
 #include "gpu/passes/falling/falling_io.h"
 
-layout(binding = FALLING_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = FALLING_DEPTH) uniform sampler2D depth_map;
 
 layout(location = 0) noperspective in vec2 at_px;
 layout(location = 1) flat in vec4 shape;
 layout(location = 2) flat in vec4 light;
+layout(location = 3) flat in vec4 lens;  // of the frame: a CPU reads each word of a uniform block lane by lane
 layout(location = 0) out vec4 color;
 
 const float kSoft_m = 0.12;  // it fades into what is so close behind it
@@ -29,8 +28,8 @@ void main()
     }
     const float cover = streak_cover(at_px.x, at_px.y, shape.x, radius);
     const float depth = texelFetch(depth_map, ivec2(gl_FragCoord.xy), 0).r;
-    const float behind_m = linear_depth(frame, depth) - light.w;
+    const float behind_m = (lens.w > 0.5 ? (1.0 - depth) * lens.y : lens.x / max(depth, 1.0e-9)) - light.w;
     const float alpha = min(shape.z * cover, 1.0) *
                         clamp(behind_m / kSoft_m, 0.0, 1.0);
-    color = vec4(light.rgb * (alpha * frame.samples), alpha);
+    color = vec4(light.rgb * (alpha * lens.z), alpha);
 }

@@ -22,6 +22,8 @@ public:
         fill_bytes(std::as_bytes(std::span(sprites)));
     }
     GpuBuffer& texels() const { return *buffer_; }
+    GpuBuffer& lit() const { return *lit_; }          ///< a texel a drop, what falling_lit writes
+    GpuBuffer& corners() const { return *corners_; }  ///< indices of their rectangles: six for four vertices
     std::uint32_t count() const { return count_; }
 
 private:
@@ -30,6 +32,8 @@ private:
     const Device* device_;
     std::unique_ptr<MemoryArena> arena_;
     std::unique_ptr<GpuBuffer> buffer_;
+    std::unique_ptr<GpuBuffer> lit_;
+    std::unique_ptr<GpuBuffer> corners_;
     std::size_t room_ = 0;
     std::uint32_t count_ = 0;
 };

@@ -4,12 +4,24 @@
 
 #include "base/interop.h"
 
+// splash
 #define FALLING_FRAME 0
 #define FALLING_SKY_LIGHT 1
 #define FALLING_DROPS 2
 #define FALLING_DEPTH 3
 #define FALLING_SHELTER 4
-#define FALLING_SHADOW 5
+
+// falling; with the frame, drops and depth at the same places
+#define FALLING_LIGHT 1
+
+// falling_lit: a texel a drop: radiance, and 0 where a roof keeps it off
+#define FALLING_LIT_FRAME 0
+#define FALLING_LIT_SKY_LIGHT 1
+#define FALLING_LIT_DROPS 2
+#define FALLING_LIT_SHELTER 3
+#define FALLING_LIT_SHADOW 4
+#define FALLING_LIT_LIGHT 5
+#define FALLING_LIT_GROUP 64
 
 #define FALLING_SPEC_SHELTER 0
 #define FALLING_SPEC_SUN 1
@@ -34,6 +46,10 @@ struct FallingDrop {
     float speed_m_s;
     vec3 lamps;       // radiance that lamps give it
     float diameter_m;
+};
+
+struct FallingLitParams {
+    int count;
 };
 
 // A drop that has hit something.

@@ -18,8 +18,7 @@ layout(location = 0) noperspective out vec2 at;  // across, -1 .. 1, and up, 0 .
 layout(location = 1) flat out vec4 light;        // radiance; distance along the view axis
 layout(location = 2) flat out float opacity;
 
-const vec2 kCorners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1),
-                                vec2(-1, 1));
+const vec2 kCorners[4] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 1));
 const float kOpacity = 0.6;   // of a young crown: sheets and beads with air between them; by eye
 
 // Where what passes a point hits; w 0: nothing.
@@ -36,8 +35,8 @@ vec4 hit(vec3 above)
 
 void main()
 {
-    const int splash = gl_VertexIndex / 6;
-    const vec2 corner = kCorners[gl_VertexIndex - 6 * splash];
+    const int splash = gl_VertexIndex / 4;
+    const vec2 corner = kCorners[gl_VertexIndex - 4 * splash];
     const vec4 place = texelFetch(splashes, splash * SPLASH_TEXELS);
     const vec4 lamps = texelFetch(splashes, splash * SPLASH_TEXELS + 1);
     const float diameter = abs(lamps.w);

@@ -11,7 +11,7 @@ namespace petrichor::gpu {
 // read by the host, as is the exposure.
 //
 //   reads    accumulated, glare, sky_light
-//   writes   beauty, display
+//   writes   beauty, display: a CPU draws them, elsewhere or with exposed light a dispatch writes them
 void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                  const ConstantsRange& constants, const FrameSettings& settings);
 
