@@ -1,6 +1,6 @@
 #version 460
 // What bends or blurs shows other layers behind it, too: their pile at the pixels where the bent rays end, over the solid
-// picture that transparent_over has put there. Of layers behind a second one that bends, that shows the solid picture.
+// picture that transparent_over has put there. A second one that bends shows the solid picture alone.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/weather/surface_weather.h"
