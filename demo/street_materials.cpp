@@ -84,8 +84,42 @@ std::vector<std::byte> encode_orm(const MaterialMaps& maps)
     return texproc::encode_png8(maps.roughness.width, maps.roughness.height, 3, bytes);
 }
 
-// What shines out of a window at dusk, u and v from 0 to 1 over it: a warm room, brightest high up,
-// curtains drawn to the sides, a few pots on the sill.
+// Share of a rectangle of half sizes around a middle, soft by half a texel or two.
+float within(const glm::vec2& at, const glm::vec2& middle, const glm::vec2& half)
+{
+    const glm::vec2 out = glm::abs(at - middle) - half;
+    return texproc::smooth_step(0.006f, -0.006f, std::max(out.x, out.y));
+}
+
+// The room behind a window, from 0 to 1 over it: a lamp hangs before the far wall, on which is a picture; a chair, a dresser.
+glm::vec3 room_light(const glm::vec2& at, std::uint32_t seed)
+{
+    const glm::vec2 lamp(0.42f, 0.30f);
+    const glm::vec2 off = at - lamp;
+    float wall = 0.05f + 0.40f * std::exp(-9.0f * glm::dot(off, off));
+    wall *= 1.0f + 0.05f * texproc::gradient_noise(6.0f * at.x, 6.0f * at.y, 6, 6, seed);
+    if (at.y < 0.13f) wall *= 0.62f;  // the ceiling
+    glm::vec3 color = wall * glm::vec3(1.0f, 0.60f, 0.26f);
+    color *= 1.0f - 0.45f * texproc::smooth_step(0.66f, 0.67f, at.y) * glm::vec3(0.90f, 1.05f, 1.15f);  // panels below
+    const glm::vec2 picture(0.64f, 0.40f);
+    color *= 1.0f - 0.75f * within(at, picture, {0.065f, 0.085f});
+    color = glm::mix(color, wall * glm::vec3(0.42f, 0.34f, 0.20f), within(at, picture, {0.050f, 0.070f}));
+    color *= 1.0f - 0.78f * within(at, {0.60f, 0.86f}, {0.17f, 0.17f});
+    const float chair = std::max({within(at, {0.31f, 0.80f}, {0.008f, 0.20f}), within(at, {0.41f, 0.80f}, {0.008f, 0.20f}),
+                                  within(at, {0.36f, 0.66f}, {0.050f, 0.020f}), within(at, {0.36f, 0.76f}, {0.050f, 0.012f})});
+    color *= 1.0f - 0.85f * chair;
+    color *= 1.0f - 0.70f * within(at, {lamp.x, 0.12f}, {0.002f, 0.12f});
+    const float down = (off.y + 0.07f) / 0.12f;  // along the shade
+    if (down >= 0.0f && down <= 1.0f) {
+        const float shade = texproc::smooth_step(0.004f, -0.004f, std::abs(off.x) - 0.025f - 0.065f * down);
+        color = glm::mix(color, (0.75f + 0.25f * down) * glm::vec3(1.0f, 0.66f, 0.32f), shade);
+    }
+    const float bulb = std::hypot(off.x, 1.6f * (off.y - 0.055f)) - 0.03f;
+    return glm::mix(color, glm::vec3(1.0f, 0.80f, 0.50f), texproc::smooth_step(0.006f, -0.006f, bulb));
+}
+
+// What shines out of a window at dusk, u and v from 0 to 1 over it: a warm room, curtains drawn to the sides, a few pots on
+// the sill.
 std::vector<std::byte> encode_window_light(std::uint32_t seed,
                                            const std::vector<std::uint8_t>& table)
 {
@@ -95,16 +129,15 @@ std::vector<std::byte> encode_window_light(std::uint32_t seed,
         for (int i = 0; i < kSize; ++i) {
             const float u = (static_cast<float>(i) + 0.5f) / kSize;
             const float v = (static_cast<float>(j) + 0.5f) / kSize;
-            const float du = u - 0.5f;
-            const float dv = v - 0.25f;
-            float light = 0.16f + 0.84f * std::exp(-5.0f * (du * du + 0.8f * dv * dv));
-            light *= 1.0f + 0.05f * texproc::gradient_noise(6.0f * u, 6.0f * v, 6, 6, seed);
-            glm::vec3 color = light * glm::vec3(1.0f, 0.60f, 0.26f);
+            glm::vec3 color = room_light({u, v}, seed);
             const float hem = 0.20f + 0.05f * std::sin(2.6f * v) - 0.07f * (1.0f - v) * (1.0f - v);
             const float from_side = std::min(u, 1.0f - u);
             const float curtain = texproc::smooth_step(hem + 0.012f, hem - 0.012f, from_side);
             const float fold = 0.62f + 0.38f * std::sin(150.0f * from_side + 5.0f * v);
-            color = glm::mix(color, color * glm::vec3(0.62f, 0.42f, 0.30f) * fold, curtain);
+            // Cloth is lit from behind by all of the room.
+            const glm::vec2 off(u - 0.42f, v - 0.30f);
+            const float behind = 0.10f + 0.50f * std::exp(-5.0f * (off.x * off.x + 0.8f * off.y * off.y));
+            color = glm::mix(color, behind * fold * glm::vec3(0.62f, 0.252f, 0.078f), curtain);
             for (int k = 0; k < 4; ++k) {
                 const std::uint32_t h = texproc::hash_cell(k, 3, seed);
                 const float at =
@@ -362,7 +395,8 @@ void add_street_materials(const DemoOptions& options, scene::Scene& scene, Kit& 
             material.weather.height_scale_m = baked[k].height_scale_m;
         }
         if (recipe.slot == Slot::LitGlass) {
-            material.emissive = glm::vec3(60.0f);
+            // The mean of what shines out of a window is 26.1, 14.9 and 6.3, whatever is drawn in it (encode_window_light).
+            material.emissive = glm::vec3(174.1f, 179.4f, 180.4f);
             material.emissive_texture.texture = window_light;
         }
         if (recipe.slot == Slot::LampGlass) material.emissive = glm::vec3(1600.0f, 960.0f, 420.0f);
