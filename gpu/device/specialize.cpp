@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "gpu/device/decided.h"
 #include "gpu/device/droppable.h"
 #include "gpu/device/prepared.h"
 #include "gpu/device/spirv_passes.h"
@@ -33,13 +34,21 @@ constexpr const char* kCacheKind = "shaders";
 // Cuts a shader down to what these constants leave of it.
 class CutDown : public Passes {
 public:
-    explicit CutDown(const std::vector<Specialization>& constants)
+    // .. of which with_constants() did all, or not.
+    CutDown(const std::vector<Specialization>& constants, bool all_decided)
     {
-        std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
-        for (const Specialization& constant : constants) values[constant.id] = {constant.value};
-        optimizer_.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
-            .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
-            .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
+        if (!all_decided) {
+            std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
+            for (const Specialization& constant : constants) values[constant.id] = {constant.value};
+            optimizer_.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
+                .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
+                .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
+                .RegisterPass(spvtools::CreateDeadBranchElimPass())
+                .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+                .RegisterPass(spvtools::CreateAggressiveDCEPass());
+        }
+        // What values decide goes before functions are copied into their callers: a third of the words that are copied.
+        optimizer_.RegisterPass(spvtools::CreateCCPPass())
             .RegisterPass(spvtools::CreateDeadBranchElimPass())
             .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
             .RegisterPass(spvtools::CreateAggressiveDCEPass());
@@ -144,20 +153,21 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
                                        const ContentCache& cache,
                                        std::span<const std::uint32_t> prepared_before)
 {
-    const CutDown cut_down(constants);
     const auto make = [&] {
         std::vector<std::uint32_t> own;
         if (prepared_before.empty()) own = prepared_or_kept(code, cache);
         const std::span<const std::uint32_t> words = prepared_before.empty() ? own : prepared_before;
-        return words.empty() ? own : with_shuffles_again(cut_down.run(words, true));
+        if (words.empty()) return own;
+        const Decided decided = with_constants(words, constants);
+        return with_shuffles_again(CutDown(constants, decided.all).run(decided.words, true));
     };
     if (!cache.on()) return make();
     Hasher hasher;
-    hasher.add("specialized 6");
+    hasher.add("specialized 7");
     for (const Specialization& constant : constants) {
         hasher.add_bytes(std::as_bytes(std::span(&constant, 1)));
     }
-    for (const char* name : cut_down.names()) hasher.add(std::string(name));
+    for (const char* name : CutDown(constants, false).names()) hasher.add(std::string(name));
     return made(code, hasher, cache, make);
 }
 

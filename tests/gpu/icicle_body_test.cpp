@@ -173,7 +173,7 @@ TEST_F(IcicleBodyTest, ShowTheirSurroundingsTheOtherWayRound)
         for (int y = kSize / 2 - 4; y < kSize / 2 + 4; ++y) {
             for (int x = kSize / 2 + from; x < kSize / 2 + to; ++x) {
                 EXPECT_TRUE(ice(x, y));
-                for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(aov(r, "transmission", x, y, c)) / kGlow;
+                for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(aov(r, "transmission", x, y, c)) / static_cast<double>(kGlow);
                 ++pixels;
             }
         }

@@ -6,9 +6,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
+#ifdef PETRICHOR_SPIRV_TOOLS
+#include <spirv-tools/libspirv.hpp>
+#include <spirv-tools/optimizer.hpp>
+#endif
+
 #include "gpu/device/by_value.h"
+#include "gpu/device/decided.h"
 #include "gpu/device/droppable.h"
 #include "gpu/device/prepared.h"
 #include "gpu/device/shaders.h"
@@ -62,6 +72,90 @@ TEST_F(Specialize, WhatIsSwitchedOffIsGone)
     EXPECT_GT(count_of(lighting, kFunction), 10);
     EXPECT_EQ(count_of(off, kFunction), 1);
     EXPECT_LT(off.size(), on.size() / 2);
+}
+
+#ifdef PETRICHOR_SPIRV_TOOLS
+
+// Of a shader, how often each instruction is in it once nothing is in it that nothing needs.
+std::map<std::uint32_t, int> needed(std::span<const std::uint32_t> code, spvtools::Optimizer& optimizer)
+{
+    optimizer.RegisterPass(spvtools::CreateCCPPass())
+        .RegisterPass(spvtools::CreateDeadBranchElimPass())
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass())
+        .RegisterPass(spvtools::CreateUnifyConstantPass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    spvtools::OptimizerOptions options;
+    options.set_run_validator(false);
+    std::vector<std::uint32_t> words;
+    EXPECT_TRUE(optimizer.Run(code.data(), code.size(), &words, options));
+    std::map<std::uint32_t, int> count;
+    constexpr std::uint32_t kPhiOfOne = 5u << 16 | 245u;  // another name of a value
+    for (std::size_t at = 5; at < words.size() && words[at] >> 16 > 0; at += words[at] >> 16) {
+        if (words[at] != kPhiOfOne) ++count[words[at] & 0xffffu];
+    }
+    return count;
+}
+
+// Constants that switch all off, all on, and every other one: what is left is a shader, without constants that could be set, and
+// passes find in it what they find by themselves.
+TEST_F(Specialize, WhatConstantsDecideIsDecidedInOneWalk)
+{
+    spvtools::SpirvTools rules(SPV_ENV_VULKAN_1_3);
+    std::string said;
+    rules.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&, const char* text) { said = text; });
+    spvtools::ValidatorOptions options;
+    options.SetScalarBlockLayout(true);
+    std::size_t before = 0, after = 0;
+    for (const EmbeddedShader& shader : embedded_shaders()) {
+        for (std::uint32_t pattern = 0; pattern < 3; ++pattern) {
+            std::vector<Specialization> constants;
+            for (std::uint32_t id = 0; id < 64; ++id) constants.push_back({id, pattern < 2 ? pattern : id % 2});
+            const Decided decided = with_constants(shader.prepared, constants);
+            EXPECT_TRUE(decided.all) << shader.name;
+            for (const std::uint32_t spec : {48u, 49u, 50u, 51u, 52u}) EXPECT_EQ(count_of(decided.words, spec), 0) << shader.name;
+            EXPECT_EQ(count_of(decided.words, kDecorate, kSpecId), 0) << shader.name;
+            EXPECT_TRUE(rules.Validate(decided.words.data(), decided.words.size(), options)) << shader.name << ", " << pattern << ": " << said;
+            before += shader.prepared.size();
+            after += decided.words.size();
+        }
+    }
+    EXPECT_LT(after, before * 3 / 4);
+    for (const char* name : {"lighting.comp", "surface_resolve.comp", "transparent.frag", "resolve.comp"}) {
+        const EmbeddedShader* shader = find_embedded_shader(name);
+        ASSERT_NE(shader, nullptr) << name;
+        std::vector<Specialization> constants;
+        std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
+        for (std::uint32_t id = 0; id < 64; ++id) {
+            constants.push_back({id, id % 3 == 0 ? 1u : 0u});
+            values[id] = {constants.back().value};
+        }
+        spvtools::Optimizer passes(SPV_ENV_VULKAN_1_3), rest(SPV_ENV_VULKAN_1_3);
+        passes.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
+            .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
+            .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
+        auto found = needed(with_constants(shader->prepared, constants).words, rest);
+        for (const auto& [number, count] : needed(shader->prepared, passes)) EXPECT_EQ(found[number], count) << name << ": " << number;
+    }
+}
+
+#endif
+
+// What is no shader, or cut off, comes back as it was.
+TEST_F(Specialize, WordsThatAreNoShaderAreLeftAlone)
+{
+    const std::span<const std::uint32_t> whole = find_embedded_shader("resolve.comp")->prepared;
+    for (std::size_t length = 0; length < whole.size(); length += 1 + length / 7) {
+        const Decided decided = with_constants(whole.first(length), {{0, 1}, {1, 0}});
+        if (decided.all) continue;  // ended between two functions
+        EXPECT_TRUE(std::ranges::equal(decided.words, whole.first(length))) << length;
+    }
+    std::vector<std::uint32_t> wild(whole.begin(), whole.end());
+    for (std::size_t at = 5; at < wild.size(); at += 3) {
+        const std::uint32_t kept = std::exchange(wild[at], wild[at] * 2654435761u);
+        EXPECT_FALSE(with_constants(wild, {{0, 1}}).words.empty()) << at;
+        wild[at] = kept;
+    }
 }
 
 TEST_F(Specialize, NoShaderOfOursIsLeftToTheDriver)
