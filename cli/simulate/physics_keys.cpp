@@ -36,6 +36,7 @@ const Key kKeys[] = {
     {"surface.film_capacity_kg_m2",
      [](PhysicalParams& p) { return &p.surface.film_capacity_kg_m2; }},
     {"surface.film_rate_1_s", [](PhysicalParams& p) { return &p.surface.film_rate_1_s; }},
+    {"surface.film_full_kg_m2", [](PhysicalParams& p) { return &p.surface.film_full_kg_m2; }},
     {"surface.slush_rate_1_s", [](PhysicalParams& p) { return &p.surface.slush_rate_1_s; }},
     {"surface.infiltration_first_mm_h",
      [](PhysicalParams& p) { return &p.surface.infiltration.first_mm_h; }},

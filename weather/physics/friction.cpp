@@ -15,6 +15,7 @@ constexpr double kDry = 0.82, kWet = 0.70, kSlush = 0.35, kPacked = 0.25, kIce =
 // e-folding covers, kg/m2.
 constexpr double kWaterCover = 0.1, kIceCover = 0.05, kSnowCover = 0.5;
 constexpr double kTrace_kg_m2 = 0.01;
+constexpr double kFreezes_w_m2 = 0.1;  // a thousandth of a millimetre an hour: less is nothing to see
 constexpr double kMetroLayer_kg_m2 = 0.2;
 constexpr double kBlackIce_mm = 0.01;
 
@@ -70,7 +71,8 @@ RoadCondition road_condition(const CellState& c)
     const double frozen = snow + c.film_ice;
     const double water = c.film + snow_water_of(c);
     const bool rains = c.step_rain > kTrace_kg_m2, snows = c.step_snow > kTrace_kg_m2;
-    if (rains && c.flux_melt < 0.0 && c.surface_temp_c <= 0.0) return RoadCondition::IcingRain;
+    const bool water_freezes = c.flux_melt < -kFreezes_w_m2;
+    if (rains && water_freezes && c.surface_temp_c <= 0.0) return RoadCondition::IcingRain;
     if (snows && (c.surface_temp_c > 0.0 || c.flux_melt > 0.0)) return RoadCondition::MeltingSnow;
     if (frozen >= kMetroLayer_kg_m2 && water >= kMetroLayer_kg_m2)
         return RoadCondition::WaterAndSnow;
@@ -79,7 +81,7 @@ RoadCondition road_condition(const CellState& c)
     const bool settles = c.flux_latent < 0.0;
     const bool freezes = c.surface_temp_c <= freezing_point_c(c.salt, c.film + c.crack + c.puddle);
     if (settles && !rains && !freezes) return RoadCondition::Dew;
-    if ((settles && !snows && freezes) || c.flux_melt < 0.0) return RoadCondition::Frost;
+    if ((settles && !snows && freezes) || water_freezes) return RoadCondition::Frost;
     return RoadCondition::Dry;
 }
 

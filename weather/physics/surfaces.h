@@ -21,6 +21,8 @@ struct Surface {
     double heat_roughness_share = 0.1;  ///< z0h / z0, of heat and vapour
     double film_capacity_kg_m2 = 0.4;  ///< held by pores and texture before it runs, > 0
     double film_rate_1_s = 0.003;      ///< drainage above the capacity, > 0
+    /// Covers all of the ground: thinner films leave the tops of stones dry. The capacity where that is more.
+    double film_full_kg_m2 = 1.0;
     /// The same under snow and in slush, > 0. METRo takes 0.0003; then the film under melting snow
     /// is up to 0.016 kg/m2 (root mean square of a rough year) from steps of a minute, not 0.010.
     double slush_rate_1_s = 0.003;

@@ -17,6 +17,11 @@ struct Site;
 
 namespace petrichor::weather::detail {
 
+// Water on the ground: what stays, and what covers all of it (film_cover.h), kg/m2.
+struct FilmConstants {
+    double held, inverse_full;
+};
+
 struct CellConstants {
     Surface surface;
     SnowParams snow;
@@ -35,6 +40,7 @@ struct CellConstants {
         least_wind_by_night;
     // water
     double film_capacity, inverse_film_capacity, crack_capacity, puddle_capacity;
+    FilmConstants film;
     bool permeable = false;
     double canopy_capacity = 0.0;  // 0: no canopy
 };

@@ -1,14 +1,14 @@
 // How much of a cell is wet while its water dries away: exact means over a step, so that one energy
 // balance serves an hour in which a film dries out.
 //
-//   film     share u = w / capacity of pore water evaporates: dw/dt = supply - e u, an exponential;
-//            above the capacity u = 1 until the excess has run off
+//   film     evaporates where it covers the ground (film_cover.h)
 //   hollows  evaporation lowers the level by e dt, and the water lost is V(h) - V(h - e dt)
 #ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_WETNESS_KERNEL_H
 #define PETRICHOR_WEATHER_PHYSICS_DETAIL_WETNESS_KERNEL_H
 
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/cell_constants.h"
+#include "weather/physics/detail/film_cover.h"
 #include "weather/physics/detail/reservoir.h"
 #include "weather/physics/detail/surface_kernel.h"
 #include "weather/physics/detail/uniform_relief.h"
@@ -61,66 +61,6 @@ PETRICHOR_INLINE WetShare<Real> area_while_falling(const Hypsometry& relief, con
     return area;
 }
 
-// (1 - exp(-x)) / x and exp(-x) for x >= 0: the eighth power of 1 / (1 + y + y^2/2 + y^3/6), y =
-// x/8. Positive, monotone, below 1; within 1e-4 of the truth up to x = 1, 2e-3 anywhere.
-template <class Real>
-struct Decay {
-    Real mean, end;
-};
-template <class Real>
-PETRICHOR_INLINE Decay<Real> decay_of(const Real& x)
-{
-    const Real y = x * 0.125;
-    const Real half = y * (y * (1.0 / 6.0) + 0.5) + 1.0;
-    const Real r = 1.0 / (y * half + 1.0);
-    const Real r2 = r * r;
-    const Real r4 = r2 * r2;
-    return {r * half * ((r + 1.0) * (r2 + 1.0)) * ((r4 + 1.0) * 0.125), r4 * r4};
-}
-
-// The film's wet share over a step.
-//   film       liquid and ice
-//   potential  what evaporates where all of it is wet, kg/m2 of the step
-template <class Real>
-PETRICHOR_INLINE WetShare<Real> film_while_drying(const Real& film, const Real& liquid,
-                                                  const Real& supply, const Real& potential,
-                                                  const CellConstants& k,
-                                                  const ReservoirConstants& r)
-{
-    const Real zero = 0.0, one = 1.0;
-    const Real start = smaller(film * k.inverse_film_capacity, one);
-    // Until the excess has run off all is wet; `rest` is the share of the step after that.
-    Real rest = one;
-    const Real loss = potential - supply;
-    const auto excess = (liquid > k.film_capacity);
-    if (any(excess)) {
-        const Real net = larger(loss * (1.0 / r.dt_s), Real(1e-12));
-        const Real above = larger(liquid - k.film_capacity, zero);
-        const Real until = logarithm(above * r.rate_1_s / net + 1.0) * r.inverse_rate_s;
-        rest = select(excess, larger(1.0 - until * (1.0 / r.dt_s), zero), rest);
-    }
-    const auto decay = decay_of(potential * rest * k.inverse_film_capacity);
-    const Real added = supply * rest * k.inverse_film_capacity;
-    WetShare<Real> share;
-    share.end = start * decay.end + added * decay.mean;
-    share.mean = start * decay.mean;
-    if (any(supply > zero)) {
-        // The mean of what is added, and where supply wins: a line up to full.
-        share.mean += added * (1.0 - decay.mean) /
-                      larger(potential * rest * k.inverse_film_capacity, Real(1e-9));
-        const Real rise = (supply - potential * start) * k.inverse_film_capacity;
-        const Real reach = (1.0 - start) / larger(rise, Real(1e-30));
-        const auto fills = loss <= zero;
-        share.mean = select(
-            fills, select(reach < one, 1.0 - (1.0 - start) * reach * 0.5, start + rise * 0.5),
-            share.mean);
-        share.end = select(fills, start + rise, share.end);
-    }
-    share.mean = smaller(1.0 - rest + rest * share.mean, one);
-    share.end = smaller(share.end, one);
-    return share;
-}
-
 // Share of the air's demand that reaches water in cracks. It lies in still air and in shade some
 // millimetres down, beside walls that are dry: the last stage of drying, which road tests see as
 // dark joints and seams hours after the surface is dry.
@@ -146,7 +86,7 @@ PETRICHOR_INLINE void take(const Mask& mask, const WetShares<Real>& from, WetSha
 // What the shares of a step depend on.
 template <class Real>
 struct Wetness {
-    Real film, film_liquid, crack_level, puddle_level;
+    Real film, film_cover, film_liquid, crack_level, puddle_level;
     Real supply, infiltration;  // kg/m2 and mm of the step
     MaskOf<Real> covered;       // by snow: all of it evaporates
     bool any_water, any_hollow;
@@ -170,7 +110,8 @@ struct Wetness {
             puddle = area_while_falling(k->surface.puddles, puddle_level, potential, infiltration);
         const Real open = one - puddle.mean;
         const auto pore =
-            film_while_drying(film, film_liquid, supply, potential * open, *k, part->film);
+            cover_while_drying(film, film_cover, film_liquid, supply, potential * open, k->film,
+                               part->film);
         // The film hides what lies in the cracks below it.
         const Real bare = open * (one - pore.mean) * kCrackExposure;
         if (any_hollow)
@@ -206,6 +147,7 @@ PETRICHOR_INLINE void set_wetness(Wetness<Real>& w, const CellVars<Real>& c, con
     const Real puddle = c.puddle + c.puddle_ice;
     w.any_hollow = any((crack + puddle > zero) & !covered);
     w.any_water = w.any_hollow || any((w.film + supply > zero) & !covered);
+    w.film_cover = film_cover_of(w.film, k.film.inverse_full);
     if (w.any_hollow) {
         w.crack_level = level_of(k.surface.cracks, crack);
         w.puddle_level = level_of(k.surface.puddles, puddle);

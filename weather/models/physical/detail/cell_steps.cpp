@@ -248,6 +248,7 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
         std::max(params.exchange.min_wind_m_s, kTrafficByNight * s.traffic_wind_m_s);
     k.film_capacity = s.film_capacity_kg_m2;
     k.inverse_film_capacity = 1.0 / s.film_capacity_kg_m2;
+    k.film = {s.film_capacity_kg_m2, 1.0 / std::max(s.film_capacity_kg_m2, s.film_full_kg_m2)};
     k.crack_capacity = s.cracks.capacity_kg_m2();
     k.puddle_capacity = s.puddles.capacity_kg_m2();
     k.canopy_capacity = kCanopyHolds_kg_m2 * params.canopy_vai;

@@ -72,13 +72,13 @@ private:
     {
         // A name changes nothing.
         const auto& [name, albedo_dry, albedo_wet, emissivity, roughness_m, heat_roughness_share,
-                     film_capacity_kg_m2, film_rate_1_s, slush_rate_1_s, cracks, puddles,
-                     infiltration, layers, open_below, conductivity_w_m_k, heat_capacity_j_m3_k,
+                     film_capacity_kg_m2, film_rate_1_s, film_full_kg_m2, slush_rate_1_s,
+                     cracks, puddles, infiltration, layers, open_below, conductivity_w_m_k, heat_capacity_j_m3_k,
                      traffic_loss_1_h, traffic_wind_m_s, snow_clearing_1_h, traffic_heat_w_m2,
                      salt_loss_1_h, leaf_width_m] = surface;
         static_cast<void>(name);
         add(albedo_dry, albedo_wet, emissivity, roughness_m, heat_roughness_share, salt_loss_1_h,
-            film_capacity_kg_m2, film_rate_1_s, slush_rate_1_s, cracks, puddles, infiltration,
+            film_capacity_kg_m2, film_rate_1_s, film_full_kg_m2, slush_rate_1_s, cracks, puddles, infiltration,
             open_below, conductivity_w_m_k, heat_capacity_j_m3_k, traffic_loss_1_h,
             traffic_wind_m_s, snow_clearing_1_h, traffic_heat_w_m2, leaf_width_m);
         add(std::uint64_t{layers.size()});
