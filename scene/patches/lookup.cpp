@@ -100,7 +100,7 @@ LookupWays lookup_ways(const Patches& patches, const NearLinks* near)
     for (const std::uint32_t root : roots) add_root(made, patches, root);
 
     made.ways.assign(std::max<std::size_t>(std::size_t{patches.interior} * 8 +
-                                               std::size_t{patches.count} * 28,
+                                               std::size_t{patches.count} * 29,
                                            1),
                      shared::kNoPatch);
     for (std::uint32_t i = 0; i < patches.interior; ++i) {
@@ -122,13 +122,15 @@ LookupWays lookup_ways(const Patches& patches, const NearLinks* near)
     for (std::uint32_t leaf = 0; leaf < patches.count; ++leaf) {
         const shared::PatchKey key = patches.key[leaf];
         const glm::ivec3 cell = cell_in(key);
+        std::uint32_t had = 0;
         for (int n = 0; n < 27; ++n) {
             if (((patches.connected[leaf] >> n) & 1u) == 0u) continue;
             const glm::ivec3 there = cell + glm::ivec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-            made.ways[std::size_t{made.grid.neighbors} + std::size_t{leaf} * 27 +
-                      static_cast<std::size_t>(n)] =
-                node_at(patches, there, axis_of(key), level_of(key));
+            const std::uint32_t node = node_at(patches, there, axis_of(key), level_of(key));
+            made.ways[std::size_t{made.grid.neighbors} + std::size_t{leaf} * 27 + static_cast<std::size_t>(n)] = node;
+            if (node != shared::kNoPatch) had |= 1u << n;
         }
+        made.ways[ranges + patches.count + leaf] = had;
     }
     return made;
 }

@@ -3,11 +3,14 @@
 #define PETRICHOR_PATCH_POINT_GLSL
 
 #include "gpu/frame/gbuffer.glsl"
+#include "gpu/frame/pixel_list_io.h"
 #include "formulas/light/patch_cells.h"
 #include "formulas/light/near_light.h"
 #include "gpu/passes/patch_light/patch_plane.glsl"
 
-layout(binding = PATCH_POINTS_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(local_size_x_id = PIXEL_LIST_SPEC_INVOCATIONS) in;
+layout(binding = PATCH_POINTS_FRAME, scalar) uniform Frame { FrameConstants frame_block; };
+FrameConstants frame;  // what is asked here, read once for all that an invocation does
 layout(binding = PATCH_POINTS_DEPTH) uniform samplerBuffer depth_rows;
 layout(binding = PATCH_POINTS_NORMALS) uniform samplerBuffer normal_rows;
 layout(binding = PATCH_POINTS_TABLE) uniform usamplerBuffer patch_table_texels;
@@ -45,6 +48,29 @@ vec4 patch_near(uint texel)
 #include "formulas/light/patch_lookup.inc"
 
 #include "gpu/frame/geometry_normal.glsl"
+
+void read_frame()
+{
+    frame.size = frame_block.size;
+    frame.flags = frame_block.flags;
+    frame.camera_m = frame_block.camera_m;
+    frame.forward = frame_block.forward;
+    frame.origin_corner = frame_block.origin_corner;
+    frame.ray_corner = frame_block.ray_corner;
+    frame.ray_dx = frame_block.ray_dx;
+    frame.ray_dy = frame_block.ray_dy;
+    frame.near_m = frame_block.near_m;
+    frame.far_m = frame_block.far_m;
+    frame.pixel_angle = frame_block.pixel_angle;
+    frame.patches = frame_block.patches;
+    frame.snow_lift_m = frame_block.snow_lift_m;
+}
+
+// A pixel in the list: of which point of its block, of how many.
+uint listed_point(ivec2 texel, bool second, bool two)
+{
+    return uint(texel.x) | (second ? 0x8000u : 0u) | uint(texel.y) << 16 | (two ? 0x80000000u : 0u);
+}
 
 // Where the points of a block begin.
 uint points_of(ivec2 block)

@@ -1,30 +1,29 @@
 #version 460
-// The light of patches at one point of every block of pixels, once a frame, from its first sample. Lighting spreads it
-// (patch_spread.glsl). Where the block shows two surfaces a second point is listed: patch_seconds looks it up, so that
-// a CPU does it for those blocks alone, and not for all beside them.
+// Lists the pixels at which the light of patches is looked up, once a frame, from its first sample: one of every block that
+// shows a surface, and another where it shows two. Lighting spreads them (patch_spread.glsl). By a list a CPU does nothing for
+// blocks of sky and for second points that are not there.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "gpu/passes/patch_light/patch_point.glsl"
 
-layout(local_size_x = PATCH_POINTS_TILE, local_size_y = PATCH_POINTS_TILE) in;
-layout(binding = PATCH_POINTS_LIST, scalar) buffer Seconds { uint second_count; uint second_pixels[]; };
+layout(binding = PATCH_POINTS_LIST, scalar) buffer List { uint count; uint listed[]; };
 
 // The order of the list decides nothing.
-void list_second(bool asks, ivec2 texel)
+void list_points(bool first, bool second, ivec2 texel, ivec2 second_texel)
 {
-    const uvec4 asked = subgroupBallot(asks);
-    uint first = 0u;
-    if (subgroupElect()) first = atomicAdd(second_count, subgroupBallotBitCount(asked));
-    first = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(asked);
-    if (asks) second_pixels[first] = uint(texel.y) * 65536u + uint(texel.x);
+    const uvec4 firsts = subgroupBallot(first);
+    const uvec4 seconds = subgroupBallot(second);
+    const uint first_count = subgroupBallotBitCount(firsts);
+    uint begin = 0u;
+    if (subgroupElect()) begin = atomicAdd(count, first_count + subgroupBallotBitCount(seconds));
+    begin = subgroupBroadcastFirst(begin);
+    if (first) listed[begin + subgroupBallotExclusiveBitCount(firsts)] = listed_point(texel, false, second);
+    if (second) listed[begin + first_count + subgroupBallotExclusiveBitCount(seconds)] = listed_point(second_texel, true, true);
 }
 
-void main()
+void list_block(ivec2 block, bool inside)
 {
-    const ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-    const ivec2 blocks = (frame.size + PATCH_BLOCK - 1) / PATCH_BLOCK;
-    if (any(greaterThanEqual(block, blocks))) return;
     const ivec2 corner = block * PATCH_BLOCK;
     const ivec2 last = frame.size - 1;
     ivec2 texel = min(corner + PATCH_BLOCK / 2, last);
@@ -40,27 +39,33 @@ void main()
             texel = at;
         }
     }
-    const uint base = points_of(block);
-    if (depth <= 0.0) {
-        points[base + 1u] = uvec4(0u);
-        return;
-    }
+    const bool shows = inside && depth > 0.0;
     const vec3 x = position_at(texel, depth);
     const vec3 n = mesh_normal_at(texel, x, depth);
-    const float view_m = linear_depth(frame, depth);
     // The pixel that lies farthest off this plane, if it does by more than pixels are wide.
-    float farthest = 1.5 * pixel_width_m(frame, view_m) + 0.01;
+    float farthest = 1.5 * pixel_width_m(frame, linear_depth(frame, depth)) + 0.01;
     ivec2 second = ivec2(-1);
     for (int i = 0; i < PATCH_BLOCK * PATCH_BLOCK / 2; ++i) {
         const int y = i / (PATCH_BLOCK / 2);
         const ivec2 at = min(corner + ivec2(2 * (i % (PATCH_BLOCK / 2)) + (y & 1), y), last);
-        if (depths[i] <= 0.0) continue;
         const float away = abs(dot(position_at(at, depths[i]) - x, n));
-        if (away > farthest) {
-            farthest = away;
-            second = at;
-        }
+        const bool farther = shows && depths[i] > 0.0 && away > farthest;
+        farthest = farther ? away : farthest;
+        second = farther ? at : second;
     }
-    write_point(base, x, n, view_m, second.x >= 0 ? 2u : 1u);
-    list_second(second.x >= 0, second);
+    if (inside && !shows) points[points_of(block) + 1u] = uvec4(0u);
+    list_points(shows, second.x >= 0, texel, second);
+}
+
+void main()
+{
+    read_frame();
+    const ivec2 blocks = (frame.size + PATCH_BLOCK - 1) / PATCH_BLOCK;
+    int number = int(gl_LocalInvocationID.x);
+    do {
+        const ivec2 block = ivec2(gl_WorkGroupID.xy) * PATCH_POINTS_TILE +
+                            ivec2(number % PATCH_POINTS_TILE, number / PATCH_POINTS_TILE);
+        list_block(block, all(lessThan(block, blocks)));
+        number += int(gl_WorkGroupSize.x);
+    } while (number < PATCH_POINTS_TILE * PATCH_POINTS_TILE);
 }

@@ -26,19 +26,19 @@ Four3 direction(const Four3& corner)
     return corner * (all(1.0f) / square_root(larger(dot(corner, corner), all(1.0e-24f))));
 }
 
-Four edge(const Four3& p, const Four3& q, const Four3& n)
+Four edge(const Four3& p, const Four3& q, Four length_p, Four length_q, const Four3& n)
 {
-    const Four3 across = cross(q, p);
-    const Four c = smaller(larger(dot(p, q), all(-1.0f)), all(1.0f));
-    const Four y = magnitude(c);
-    const Four acute = (0.8543985f + (0.4965155f + 0.0145206f * y) * y) / (3.4175940f + (4.1616724f + y) * y);
-    const Four obtuse = 0.5f * (all(1.0f) / square_root(larger(dot(across, across), all(1.0e-14f)))) - acute;
-    return dot(across, n) * chosen(c > all(0.0f), acute, obtuse);
+    const Four3 between = p * length_q + q * length_p;
+    const Four v = 2.0f * length_p * length_q;
+    const Four w = larger(square_root(dot(between, between)), 5.0e-8f * v);
+    const Four above = 0.8543985f * v * v + (0.4965155f * v + 0.0145206f * w) * w;
+    const Four below = 3.4175940f * v * v + (4.1616724f * v + w) * w;
+    return 2.0f * dot(cross(q, p), n) * above / larger(below * w, all(1.0e-37f));
 }
 
 Four3 crossing(const Four3& p, const Four3& q, Four height_p, Four height_q)
 {
-    return direction(p * magnitude(height_q) + q * magnitude(height_p));
+    return p * magnitude(height_q) + q * magnitude(height_p);
 }
 
 }  // namespace
@@ -63,37 +63,44 @@ PETRICHOR_ALSO_AVX Four near_form_factors(const std::array<glm::vec3, 4>& corner
                                           const Four3& n)
 {
     const Four zero = all(0.0f);
-    std::array<Four3, 4> corner, towards;
-    std::array<Four, 4> height;
+    std::array<Four3, 4> corner;
+    std::array<Four, 4> height, length;
     std::array<Signs, 4> up;
-    Signs any_down = zero > zero;
+    Signs any_down = zero > zero, above = any_down;
     for (std::size_t k = 0; k < 4; ++k) {
         corner[k] = all3(corners[k]) - position_m;
         height[k] = dot(corner[k], n);
-        towards[k] = direction(corner[k]);
+        length[k] = square_root(dot(corner[k], corner[k]));
         up[k] = height[k] >= zero;
         any_down |= ~up[k];
+        above |= height[k] > zero;
     }
     Four sum;
     if (none(any_down)) {
-        sum = edge(towards[0], towards[1], n) + edge(towards[1], towards[2], n) + edge(towards[2], towards[3], n) +
-              edge(towards[3], towards[0], n);
+        const auto part = [&](std::size_t k) {
+            return edge(corner[k], corner[(k + 1) % 4], length[k], length[(k + 1) % 4], n);
+        };
+        sum = part(0) + part(1) + part(2) + part(3);
     } else {
         std::array<Four3, 4> between;  // a corner and the next
         for (std::size_t k = 0; k < 4; ++k)
             between[k] = crossing(corner[k], corner[(k + 1) % 4], height[k], height[(k + 1) % 4]);
-        const auto part = [&](std::size_t k) {
-            const std::size_t next = (k + 1) % 4;
-            return edge(chosen(up[k], towards[k], between[k]), chosen(up[next], towards[next], between[k]), n);
-        };
-        sum = part(0) + part(1) + part(2) + part(3);
         Four3 down{zero, zero, zero}, rising{zero, zero, zero};
         for (std::size_t k = 4; k-- > 0;) {
             const std::size_t next = (k + 1) % 4;
             down = chosen(up[k] & ~up[next], between[k], down);
             rising = chosen(~up[k] & up[next], between[k], rising);
         }
-        sum = sum + edge(down, rising, n);
+        down = direction(down);
+        rising = direction(rising);
+        const Four one = all(1.0f);
+        const auto part = [&](std::size_t k) {
+            const std::size_t next = (k + 1) % 4;
+            const Four side = edge(chosen(up[k], corner[k], rising), chosen(up[next], corner[next], down),
+                                   chosen(up[k], length[k], one), chosen(up[next], length[next], one), n);
+            return chosen(up[k] | up[next], side, zero);
+        };
+        sum = part(0) + part(1) + part(2) + part(3) + edge(down, rising, one, one, n);
     }
     const Four3 way = corner[2] - corner[0], other = corner[3] - corner[1];
     const Four3 area = cross(way, other);
@@ -101,7 +108,7 @@ PETRICHOR_ALSO_AVX Four near_form_factors(const std::array<glm::vec3, 4>& corner
     const Four before = -dot(area, corner[0]), against = -dot(area, n);
     const Signs own_sheet = (against > zero) & (against * against > 0.5f * area2) &
                             (before * before < shared::kNearSheet * shared::kNearSheet * area2 * dot(way, way));
-    return chosen((before > zero) & ~own_sheet, smaller(larger(sum, zero), all(1.0f)), zero);
+    return chosen(above & (before > zero) & ~own_sheet, smaller(larger(sum, zero), all(1.0f)), zero);
 }
 
 PETRICHOR_ALSO_AVX Four3 nearest_in(const NearPolygon& p, glm::vec3 n, const Four3& x)
