@@ -27,7 +27,7 @@ constexpr double kFilled = 0.8;    // of them, of a scene with ground
 // A plate narrower than this is a thing that lies somewhere: an eye at 1.7 m amid it sees its rim two degrees below the horizon and more,
 // and nothing between.
 constexpr float kLand_m = 100.0f;
-constexpr int kTexels = 1024;      // a side, of the asphalt
+constexpr int kTexels = 1024;      // a side, of the paving or the asphalt
 constexpr int kSegments = 128;
 constexpr float kNextRing = 1.09f;  // the radius of a ring of vertices over that of the one inside
 constexpr float kInnerRing = 0.06f, kFineRings = 40.0f;  // times the scene's size ..
@@ -38,7 +38,7 @@ constexpr float kFarRing = 2.5f;   // likewise of rings beyond the fine ones
 constexpr float kClose = 0.025f;   // of the scene's size: ground so close below it is left out where it is hidden
 const vec3 kColor(0.150f, 0.150f, 0.149f);
 const vec3 kPaving(0.168f, 0.160f, 0.147f);
-// Asphalt as far as a yard goes, or a few widths of what stands there; then grass: asphalt out to the horizon is a grey sea. Its rim runs in and out.
+// Paving as far as a yard goes, or a few widths of what stands there; then grass: paving out to the horizon is a grey sea. Its rim runs in and out.
 constexpr float kYard_m = 24.0f, kYardWidths = 6.0f, kRimBend = 0.16f;
 constexpr float kMostYard = 250.0f;  // times the scene's size: of a smaller thing all that is in sight is asphalt
 const vec3 kGrass(0.095f, 0.118f, 0.047f);

@@ -11,7 +11,7 @@ namespace petrichor::film {
 bool brings_ground(const scene::Scene& scene, const scene::Bounds& content);
 
 /// Lays level ground below a scene, out to the horizon, as a backdrop. Water and snow lie on it as on
-/// any material. It is a yard of asphalt of some years (texproc/generate; "default ground"), 24 m or six of the scene's half
+/// any material. It is a yard paved with slabs (texproc/generate; "default ground"), 24 m or six of the scene's half
 /// diagonals around, in a meadow ("default meadow"); below what is smaller than 20 cm all of it is asphalt.
 void add_ground(scene::Scene& scene, const scene::Bounds& content);
 
