@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x68637470;  // "ptch"
 // Counts up whenever cutting or tracing gives other patches, or the file another shape.
-constexpr std::uint32_t kVersion = 11;
+constexpr std::uint32_t kVersion = 12;
 constexpr std::uint32_t kBack = 0x80000000u;
 
 struct Header {

@@ -203,7 +203,8 @@ TEST_F(PatchLightTest, TheDeviceLooksUpWhatTheCpuDoes)
     renderer->load(scene, {});
     renderer->set_patches(patches);
     renderer->set_environment(constant_environment(1.0f));
-    const RenderResult r = renderer->render(frame_from(look({5, 3, 6}, {-1, 0.8f, -1}, 0.9f)));
+    // A block of pixels is about as wide as a cell: light changes over a cell, and between blocks it is a straight line.
+    const RenderResult r = renderer->render(frame_from(look({5, 3, 6}, {-1, 0.8f, -1}, 0.9f), 144, 96));
 
     // The same light on the CPU.
     const scene::Patches& p = patches->patches;

@@ -71,6 +71,41 @@ TEST(NearLight, AStripWithoutAPatchSeesTheWallThatItStandsOn)
     EXPECT_GT(without, 5);
 }
 
+// A closed box of sheets in the open, their inner sides a hair beyond borders of cells: the point that a lookup lifts off them
+// lies in cells that have none of their patches. Inside it is dark up to the corners.
+TEST(NearLight, ASheetOnABorderOfCellsHasTheLightOfItsOwnSide)
+{
+    constexpr float kEdge = 0.1f, kHair = 0.03f * 0.5f * kEdge;  // of a regular cell
+    const auto border = [](int eighth) { return (8.0f * static_cast<float>(eighth) - shared::kPatchGridShift) * 0.5f * kEdge; };
+    const glm::vec3 low(border(-1) - kHair), high(border(1) + kHair);
+    Scene scene = empty_scene();
+    scene.materials[0].double_sided = true;
+    add_box(scene, low, high, true);
+    const Cut cut(scene, kEdge);
+    Given given(cut, 0.5f);
+    given.sky.assign(shared::kSkyBins, glm::vec3(1.0f));
+    const Lit lit(cut, given.input());
+    const LeafFinder finder(cut.patches);
+    constexpr int kAcross = 25;
+    for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
+        const glm::vec3 n = cut.triangles.normal(t);
+        float inside = 0.0f, outside = 0.0f;
+        for (int k = 0; k < kAcross * kAcross; ++k) {
+            const float u = (static_cast<float>(k % kAcross) + 0.5f) / static_cast<float>(kAcross),
+                        v = (static_cast<float>(k / kAcross) + 0.5f) / static_cast<float>(kAcross);
+            if (u + v >= 1.0f) continue;
+            const glm::vec3 x = cut.triangles.point(t, {u, v});
+            const std::uint32_t leaf = finder.leaf_at(x, n);
+            ASSERT_LT(leaf, cut.patches.count);
+            EXPECT_GT(glm::dot(cut.patches.normal[leaf], n), 0.99f) << x.x << " " << x.y << " " << x.z;
+            inside = std::max(inside, light_at(lit.lit, x, n).irradiance.x);
+            outside = std::max(outside, light_at(lit.lit, x, -n).irradiance.x);
+        }
+        EXPECT_LT(inside, 0.02f) << n.x << " " << n.y << " " << n.z;
+        EXPECT_GT(outside, 0.4f) << n.x << " " << n.y << " " << n.z;
+    }
+}
+
 // A wall over a sill of 6 cm that the sun lights, no sky: a finger's breadth above the sill its light is
 // nearly half of what the sill sends, an arm's length above nothing of it is left.
 TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
