@@ -158,5 +158,41 @@ TEST_F(SplashesPicture, CrownsStandWhereTheRingsAre)
     EXPECT_GT(near, 0.7 * changed);
 }
 
+// From above a sheet shows them; from below it hides them, however thin it is.
+TEST_F(SplashesPicture, NoneAreSeenThroughARoof)
+{
+    Material sheet = plain_material(glm::vec3(0.04f));
+    sheet.double_sided = true;
+    const auto changed = [&](float height_m) {  // pixels
+        renderer->load(scene_of({quad({-20, height_m, 20}, {40, 0, 0}, {0, 0, -40}), quad({-20, -2.5f, 20}, {40, 0, 0}, {0, 0, -40})}, {sheet}), {});
+        Frame frame = raining(1.0f, 1.0f);
+        frame.camera = look({0, 0, 0}, {0, height_m, -1.4f}, 0.9f);
+        frame.sky.cloud_cover = 1.0f;
+        frame.falling.budget = 1;
+        frame.falling.density = 1.0f;
+        frame.settings.width = 160;
+        frame.settings.height = 90;
+        frame.settings.samples = 1;
+        frame.settings.exposure = 1e-4f;
+        int count = 0;
+        for (int i = 0; i < 4; ++i) {
+            frame.settings.time_s = 1.0 + 0.31 * i;
+            const RenderResult with = renderer->render(frame);
+            Frame dry = frame;
+            dry.settings.falling = false;
+            const RenderResult without = renderer->render(dry);
+            for (int y = 0; y < with.height; ++y) {
+                for (int x = 0; x < with.width; ++x) {
+                    const float before = luminance(pixel(without, x, y));
+                    count += std::abs(luminance(pixel(with, x, y)) - before) > 0.02f * before ? 1 : 0;
+                }
+            }
+        }
+        return count;
+    };
+    EXPECT_GT(changed(-1.8f), 40);
+    EXPECT_EQ(changed(1.8f), 0);
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

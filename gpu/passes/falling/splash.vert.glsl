@@ -19,6 +19,7 @@ layout(location = 1) flat out vec4 light;        // radiance; distance along the
 layout(location = 2) flat out float opacity;
 
 const vec2 kCorners[4] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 1));
+const float kFromBelow = 0.25;  // sine; flatter ways from below may pass the edge of a roof on which a crown stands
 const float kOpacity = 0.6;   // of a young crown: sheets and beads with air between them; by eye
 
 // Where what passes a point hits; w 0: nothing.
@@ -76,5 +77,7 @@ void main()
     gl_Position = frame.world_to_clip * vec4(position, 1.0);
     gl_Position.z = 0.5 * gl_Position.w;
     const bool level = n.y > 0.75 && p.w * beside.w * before.w > 0.0;
-    if (!level || view_m < 0.4 || opacity <= 0.004) gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
+    // Depth hides what is 4 cm behind a surface: roofs are thinner.
+    const bool below = view.y > kFromBelow;
+    if (!level || below || view_m < 0.4 || opacity <= 0.004) gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
 }
