@@ -6,17 +6,6 @@
 
 namespace petrichor::gpu {
 
-namespace {
-
-// Of the whole picture.
-Groups all_tiles(const FrameTargets& targets)
-{
-    return {static_cast<std::uint32_t>((targets.width + PIXEL_LIST_WIDE - 1) / PIXEL_LIST_WIDE),
-            static_cast<std::uint32_t>((targets.height + PIXEL_LIST_HIGH - 1) / PIXEL_LIST_HIGH)};
-}
-
-}  // namespace
-
 void add_all_pixels(FrameGraph& graph, FrameTargets& targets)
 {
     GpuBuffer& list = *targets.pixel_list;
@@ -34,7 +23,7 @@ void add_over_pixels(FrameGraph& graph, FrameTargets& targets, ComputePass pass,
         return;
     }
     pass.constants.push_back({PIXEL_LIST_SPEC, pixels != Pixels::All});
-    pass.groups = all_tiles(targets);
+    pass.groups = groups_over(targets.width, targets.height, 8);
     graph.add(std::move(pass));
 }
 
@@ -102,7 +91,8 @@ void add_tile_lists(FrameGraph& graph, FrameTargets& targets, const ConstantsRan
         }
     };
     graph.add(std::move(empty));
-    const Groups tiles = all_tiles(targets);
+    const int across = (targets.width + PIXEL_LIST_WIDE - 1) / PIXEL_LIST_WIDE;
+    const int down = (targets.height + PIXEL_LIST_HIGH - 1) / PIXEL_LIST_HIGH;
     graph.add(ComputePass{.name = "tile_lists",
                           .shader = "tile_lists.comp",
                           .constants = {},
@@ -113,7 +103,7 @@ void add_tile_lists(FrameGraph& graph, FrameTargets& targets, const ConstantsRan
                                        {TILE_LISTS_OPEN, storage_buffer(*open.tiles)},
                                        {TILE_LISTS_OPEN_GROUPS, storage_buffer(*open.groups)}},
                           .push = {},
-                          .groups = {(tiles.x * tiles.y + TILE_LISTS_GROUP - 1) / TILE_LISTS_GROUP}});
+                          .groups = {static_cast<std::uint32_t>((across * down + TILE_LISTS_GROUP - 1) / TILE_LISTS_GROUP)}});
 }
 
 void add_over_tiles(FrameGraph& graph, FrameTargets& targets, ComputePass pass, const TileList& tiles,
