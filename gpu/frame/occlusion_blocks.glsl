@@ -25,7 +25,7 @@ int bent_point_word(ivec2 block, ivec2 size)
 
 ivec2 block_of_tile(ivec2 tile, int index)
 {
-    return tile * ivec2(OCCLUSION_WIDE, OCCLUSION_HIGH) + ivec2(index % OCCLUSION_WIDE, index / OCCLUSION_WIDE);
+    return tile * OCCLUSION_TILE + ivec2(index % OCCLUSION_TILE, index / OCCLUSION_TILE);
 }
 
 #endif

@@ -91,8 +91,7 @@ void add_tile_lists(FrameGraph& graph, FrameTargets& targets, const ConstantsRan
         }
     };
     graph.add(std::move(empty));
-    const int across = (targets.width + PIXEL_LIST_WIDE - 1) / PIXEL_LIST_WIDE;
-    const int down = (targets.height + PIXEL_LIST_HIGH - 1) / PIXEL_LIST_HIGH;
+    const Groups tiles = groups_over(targets.width, targets.height, PIXEL_LIST_TILE);
     graph.add(ComputePass{.name = "tile_lists",
                           .shader = "tile_lists.comp",
                           .constants = {},
@@ -103,7 +102,7 @@ void add_tile_lists(FrameGraph& graph, FrameTargets& targets, const ConstantsRan
                                        {TILE_LISTS_OPEN, storage_buffer(*open.tiles)},
                                        {TILE_LISTS_OPEN_GROUPS, storage_buffer(*open.groups)}},
                           .push = {},
-                          .groups = {static_cast<std::uint32_t>((across * down + TILE_LISTS_GROUP - 1) / TILE_LISTS_GROUP)}});
+                          .groups = {(tiles.x * tiles.y + TILE_LISTS_GROUP - 1) / TILE_LISTS_GROUP}});
 }
 
 void add_over_tiles(FrameGraph& graph, FrameTargets& targets, ComputePass pass, const TileList& tiles,

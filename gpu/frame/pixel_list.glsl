@@ -24,7 +24,7 @@ bool this_pixel(uint number, ivec2 size, out ivec2 pixel)
         return entry < count;
     }
     const ivec2 tile = count == PIXEL_LIST_TILES ? listed_at(gl_WorkGroupID.x) : ivec2(gl_WorkGroupID.xy);
-    pixel = tile * ivec2(PIXEL_LIST_WIDE, PIXEL_LIST_HIGH) + ivec2(number % PIXEL_LIST_WIDE, number / PIXEL_LIST_WIDE);
+    pixel = tile * PIXEL_LIST_TILE + ivec2(number % PIXEL_LIST_TILE, number / PIXEL_LIST_TILE);
     return all(lessThan(pixel, size));
 }
 

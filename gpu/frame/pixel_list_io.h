@@ -7,9 +7,7 @@
 #define PIXEL_LIST_SPEC_INVOCATIONS 91  // of a workgroup, where a pass leaves it open: PIXEL_LIST_GROUP, or the lanes of a CPU, which take turns
 #define PIXEL_LIST_ALL 0xffffffffu    // in place of how many: all, after all
 #define PIXEL_LIST_TILES 0xfffffffeu  // .. as many tiles as there are groups
-// A row of a tile is a line of a cache in a target of four bytes a pixel.
-#define PIXEL_LIST_WIDE 16
-#define PIXEL_LIST_HIGH 4
+#define PIXEL_LIST_TILE 8
 #define PIXEL_LIST_GROUP 64    // pixels that a workgroup shades
 
 // list_groups: how many groups shade a list of pixels

@@ -249,8 +249,8 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                                         .texel_format = VK_FORMAT_R32G32_UINT});
     const auto list = [&](const char* name, VkDeviceSize entries) { return list_of(arena, name, entries); };
     const auto groups = [&](const char* name) { return groups_of(arena, name); };
-    const VkDeviceSize tiles = static_cast<VkDeviceSize>(divide_up(width, PIXEL_LIST_WIDE)) *
-                               static_cast<VkDeviceSize>(divide_up(height, PIXEL_LIST_HIGH));
+    const VkDeviceSize tiles = static_cast<VkDeviceSize>(divide_up(width, PIXEL_LIST_TILE)) *
+                               static_cast<VkDeviceSize>(divide_up(height, PIXEL_LIST_TILE));
     make_occlusion(targets, arena, false);
     targets.pixel_list = list("pixel_list", pixels);
     targets.pixel_groups = groups("pixel_groups");

@@ -16,15 +16,14 @@ layout(binding = TILE_LISTS_OPEN_GROUPS, scalar) buffer OpenGroups { uint open_c
 
 void main()
 {
-    const ivec2 side = ivec2(PIXEL_LIST_WIDE, PIXEL_LIST_HIGH);
-    const ivec2 tiles = (frame.size + side - 1) / side;
+    const ivec2 tiles = (frame.size + PIXEL_LIST_TILE - 1) / PIXEL_LIST_TILE;
     const int index = int(gl_GlobalInvocationID.x);
     if (index >= tiles.x * tiles.y) return;
     const ivec2 tile = ivec2(index % tiles.x, index / tiles.x);
     float nearest = 0.0;
     float farthest = 1.0;
     for (int i = 0; i < PIXEL_LIST_GROUP; ++i) {
-        const ivec2 at = min(tile * side + ivec2(i % PIXEL_LIST_WIDE, i / PIXEL_LIST_WIDE), frame.size - 1);
+        const ivec2 at = min(tile * PIXEL_LIST_TILE + ivec2(i % PIXEL_LIST_TILE, i / PIXEL_LIST_TILE), frame.size - 1);
         const float depth = texelFetch(depth_rows, at.y * frame.size.x + at.x).r;
         nearest = max(nearest, depth);
         farthest = min(farthest, depth);
