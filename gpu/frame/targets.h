@@ -37,7 +37,7 @@ GBufferParts gbuffer_parts(const GpuScene& scene, bool weather);
 /// The targets as attachments, by location; those of parts left out are empty.
 std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts& parts);
 
-/// Tiles of 16 x 4 pixels: gpu/frame/pixel_list_io.h, and the arguments of a dispatch over them.
+/// Tiles of 8 x 8 pixels: gpu/frame/pixel_list_io.h, and the arguments of a dispatch over them.
 struct TileList {
     std::unique_ptr<GpuBuffer> tiles;
     std::unique_ptr<GpuBuffer> groups;
