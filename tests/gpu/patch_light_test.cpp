@@ -304,6 +304,28 @@ TEST_F(PatchLightTest, SnowLightsTheCeilingAboveIt)
     EXPECT_NE(ambient, dry) << "the switch does nothing";
 }
 
+// Level ground under an even sky, in pictures that end within a tile or a block of the passes: as light at each edge as in the middle.
+TEST_F(PatchLightTest, APictureOfAnyWidthIsLitToItsEdges)
+{
+    const Scene scene = scene_of({quad({-20, 0, 20}, {40, 0, 0}, {0, 0, -40})}, {lambert(glm::vec3(0.5f))});
+    renderer->load(scene, {});
+    renderer->set_patches(traced(scene));
+    renderer->set_environment(constant_environment(1.0f));
+    for (const glm::ivec2 size : {glm::ivec2(106, 60), glm::ivec2(97, 61), glm::ivec2(33, 7), glm::ivec2(112, 64)}) {
+        for (const bool occlusion : {false, true}) {
+            Frame frame = frame_from(look({0, 4, 0.5f}, {0, 0, 0}, 0.5f), size.x, size.y);
+            frame.settings.ambient_occlusion = occlusion;
+            const RenderResult picture = renderer->render(frame);
+            const float middle = luminance(pixel(picture, size.x / 2, size.y / 2));
+            EXPECT_GT(middle, 0.1f);
+            for (int y = 0; y < size.y; ++y) {
+                for (int x = 0; x < size.x; ++x)
+                    ASSERT_NEAR(luminance(pixel(picture, x, y)), middle, 0.1f * middle) << size.x << " x " << size.y << ": " << x << " " << y << " " << occlusion;
+            }
+        }
+    }
+}
+
 TEST_F(PatchLightTest, ALampShinesRoundTheCorner)
 {
     std::vector<Primitive> p{quad({-6, 0, 6}, {12, 0, 0}, {0, 0, -12})};
